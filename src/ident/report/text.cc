@@ -1,0 +1,60 @@
+// A result for the terminal: verdict, parameters, what was not identified, findings.
+#include "ident/core/format_number.h"
+#include "ident/report/blocks.h"
+#include "ident/report/report.h"
+#include "ident/report/text_table.h"
+
+namespace ident {
+namespace {
+
+constexpr const char* kBold = "\033[1m";
+constexpr const char* kYellow = "\033[33m";
+constexpr const char* kPlain = "\033[0m";
+
+std::string painted(const std::string& text, const char* colour, TextStyle style) {
+  return style.colour ? colour + text + kPlain : text;
+}
+
+Table short_parameter_table(const Result& result) {
+  Table table{.title = "", .columns = {"Parameter", "Value", "95 % interval", "Unit", "From"}, .rows = {}};
+  for (const Parameter& p : result.parameters)
+    table.rows.push_back({p.name + (p.identifiable ? "" : " ?"), format_rounded(p.value, p.std),
+                          format_interval(p.ci95, p.value, p.std), p.unit, p.source});
+  return table;
+}
+
+/// The first line of a table is its head.
+std::string with_bold_head(const std::string& table, TextStyle style) {
+  const auto end = table.find('\n');
+  return painted(table.substr(0, end), kBold, style) + table.substr(end);
+}
+
+}  // namespace
+
+std::string render_text(const Result& result, TextStyle style) {
+  std::string out = painted(title_of(result), kBold, style) + "\n\n";
+  if (!result.verdict.empty()) out += wrap(result.verdict, style.width) + "\n";
+  if (!result.parameters.empty()) {
+    out += with_bold_head(text_table(short_parameter_table(result), style.width), style) + "\n";
+    bool any = false;
+    for (const Parameter& p : result.parameters) {
+      if (p.identifiable) continue;
+      any = true;
+      out += wrap("? " + p.name + " " + status_of(p), style.width);
+    }
+    if (any) out += "\n";
+  }
+  for (const Section& section : result.sections)
+    for (const Table& table : section.tables) {
+      if (table.columns.empty()) continue;
+      out += painted(table.title.empty() ? section.title : table.title, kBold, style) + "\n";
+      out += text_table(table, style.width) + "\n";
+    }
+  for (const Warning& warning : result.warnings)
+    out += painted("warning ", kYellow, style) + painted(warning.code, kBold, style) + "\n" +
+           wrap(warning.message, style.width, 2);
+  if (!result.warnings.empty()) out += "\n";
+  return out;
+}
+
+}  // namespace ident
