@@ -1,10 +1,13 @@
-// The list of all constants, put together from the base list.
+// The list of all constants, put together from the base list and the effects.
+//
+// It lies here because includes go one way: the model declares the list, the effects complete it.
 #include "ident/model/parameters.h"
 
 #include <algorithm>
 #include <map>
 
 #include "ident/core/error.h"
+#include "ident/effects/catalogue.h"
 
 namespace ident {
 namespace {
@@ -16,6 +19,13 @@ std::vector<ParameterInfo> collect() {
   list.push_back({#symbol, unit, null_value, kind, meaning, param::symbol});
 #include "ident/model/base_parameters.def"
 #undef IDENT_PARAMETER
+  for (const EffectEntry& effect : catalogue()) {
+    int index = effect.offset;
+    for (const EffectParameter& p : effect.parameters) {
+      list.push_back({std::string(effect.info.name) + "." + std::string(p.name), std::string(p.unit),
+                      p.null_value, real, std::string(effect.info.name), index++});
+    }
+  }
   return list;
 }
 

@@ -1,0 +1,135 @@
+// A dual number whose derivatives fill SIMD registers: value and K packs of 8 derivatives, forward mode.
+//
+// `Isa` is an empty tag. Code that is compiled several times for different instruction sets names its own tag
+// in each, so that no function of one build can be taken for that of another.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <type_traits>
+
+namespace ident {
+
+using Pack8 = double __attribute__((vector_size(64)));
+
+template <int K, class Isa>
+struct Dual {
+  static constexpr int width = 8 * K;
+  double v = 0.0;
+  Pack8 d[K];
+
+  Dual() { zero(); }
+  Dual(double value) : v(value) { zero(); }  // NOLINT: a constant is a dual number without derivatives
+
+  void zero() {
+    for (int k = 0; k < K; ++k) d[k] = Pack8{};
+  }
+  void seed(int i, double derivative = 1.0) { d[i / 8][i % 8] = derivative; }
+  double derivative(int i) const { return d[i / 8][i % 8]; }
+
+  bool is_constant() const {
+    for (int i = 0; i < width; ++i)
+      if (derivative(i) != 0) return false;
+    return true;
+  }
+
+  Dual& operator+=(const Dual& b) {
+    v += b.v;
+    for (int k = 0; k < K; ++k) d[k] += b.d[k];
+    return *this;
+  }
+  Dual& operator-=(const Dual& b) {
+    v -= b.v;
+    for (int k = 0; k < K; ++k) d[k] -= b.d[k];
+    return *this;
+  }
+  Dual& operator*=(const Dual& b) { return *this = *this * b; }
+  Dual& operator/=(const Dual& b) { return *this = *this / b; }
+
+  /// f(a) with derivative `slope`.
+  static Dual chain(double f, double slope, const Dual& a) {
+    Dual r{Uninitialised{}};
+    r.v = f;
+    for (int k = 0; k < K; ++k) r.d[k] = slope * a.d[k];
+    return r;
+  }
+
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    Dual r{Uninitialised{}};
+    r.v = a.v + b.v;
+    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + b.d[k];
+    return r;
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    Dual r{Uninitialised{}};
+    r.v = a.v - b.v;
+    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] - b.d[k];
+    return r;
+  }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    Dual r{Uninitialised{}};
+    r.v = a.v * b.v;
+    for (int k = 0; k < K; ++k) r.d[k] = a.v * b.d[k] + b.v * a.d[k];
+    return r;
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    Dual r{Uninitialised{}};
+    const double inverse = 1.0 / b.v;
+    r.v = a.v * inverse;
+    for (int k = 0; k < K; ++k) r.d[k] = (a.d[k] - r.v * b.d[k]) * inverse;
+    return r;
+  }
+  friend Dual operator-(const Dual& a) { return chain(-a.v, -1.0, a); }
+  friend Dual operator+(const Dual& a, double b) { return shifted(a, b); }
+  friend Dual operator+(double a, const Dual& b) { return shifted(b, a); }
+  friend Dual operator-(const Dual& a, double b) { return shifted(a, -b); }
+  friend Dual operator-(double a, const Dual& b) { return chain(a - b.v, -1.0, b); }
+  friend Dual operator*(const Dual& a, double b) { return chain(a.v * b, b, a); }
+  friend Dual operator*(double a, const Dual& b) { return chain(a * b.v, a, b); }
+  friend Dual operator/(const Dual& a, double b) { return chain(a.v / b, 1.0 / b, a); }
+  friend Dual operator/(double a, const Dual& b) { return chain(a / b.v, -a / (b.v * b.v), b); }
+  friend bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
+  friend bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
+  friend bool operator==(const Dual& a, const Dual& b) { return a.v == b.v; }
+
+  friend Dual sqrt(const Dual& a) {
+    const double root = std::sqrt(a.v);
+    return chain(root, 0.5 / root, a);
+  }
+  friend Dual exp(const Dual& a) {
+    const double e = std::exp(a.v);
+    return chain(e, e, a);
+  }
+  friend Dual log(const Dual& a) { return chain(std::log(a.v), 1.0 / a.v, a); }
+  friend Dual sin(const Dual& a) { return chain(std::sin(a.v), std::cos(a.v), a); }
+  friend Dual cos(const Dual& a) { return chain(std::cos(a.v), -std::sin(a.v), a); }
+
+ private:
+  struct Uninitialised {};
+  explicit Dual(Uninitialised) {}
+  static Dual shifted(const Dual& a, double b) {
+    Dual r = a;
+    r.v += b;
+    return r;
+  }
+};
+
+}  // namespace ident
+
+namespace Eigen {
+template <int K, class Isa>
+struct NumTraits<ident::Dual<K, Isa>> : GenericNumTraits<ident::Dual<K, Isa>> {
+  using Real = ident::Dual<K, Isa>;
+  using NonInteger = Real;
+  using Nested = Real;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 4,
+    MulCost = 8
+  };
+};
+}  // namespace Eigen

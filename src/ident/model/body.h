@@ -1,0 +1,193 @@
+// Forces, moments and accelerations of a multirotor at a state, for any number of rotors: the equation that
+// serves every airframe.
+//
+//   F = sum_n T_n a_n,   T_n = kT Omega_n^2,  Q_n = kQ Omega_n^2 (3) M = sum_n (r_n x T_n a_n - s_n Q_n a_n)
+//   - sigma sum_n s_n Jp (Omega_n' a_n + Omega_n w x a_n)            (4) J w' = M - c x F - w x J w about the
+//   centre of gravity c           (5) f = F/m - w' x c - w x (w x c),   v' = R f + g specific force and
+//   motion of the origin (6) q' = q * (0, w)/2,   x' = v (7)
+//
+// sigma = +1 from first principles: the rotor's momentum is +s Jp Omega a, its rate of change acts on the
+// body with a minus. sigma = -1 reproduces the signs printed in [Phang 16, 18, 19] (erratum 1). Linear drag
+// of [Selby]: -diag(Kd) v_W, in the world frame. `c` is zero unless an effect moves the centre of gravity off
+// the origin.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ident/model/motor.h"
+#include "ident/model/parameters.h"
+#include "ident/model/seams.h"
+#include "ident/model/vehicle.h"
+
+namespace ident {
+
+/// Attitude, body rates, velocity and position of the origin.
+template <class S>
+struct BodyState {
+  Vec4<S> q_WB;
+  Vec3<S> w_B, v_W, x_W;
+};
+
+/// Time derivative of a BodyState, and the specific force at the origin.
+template <class S>
+struct BodyRate {
+  Vec4<S> q_dot;
+  Vec3<S> w_dot_B, v_dot_W, x_dot_W;
+  Vec3<S> f_B;
+};
+
+template <class S>
+struct Wrench {
+  Vec3<S> F_B, M_B;  ///< N, and N m about the origin; without gravity
+};
+
+/// The body with one set of constants. `p` is the parameter vector (model/parameters.h); both it and the
+/// vehicle must outlive the object. Nothing here depends on the state: build once per set of constants.
+template <class S, class Effects = NoEffects>
+class Body {
+ public:
+  Body(const Vehicle& vehicle, std::span<const S> p, const Effects& effects)
+      : vehicle_(&vehicle), p_(p), effects_(&effects) {
+    using std::cos, std::sin;
+    MassSeam<S> mass{p[param::m], inertia_matrix(p), Vec3<S>(S(0.0), S(0.0), S(0.0)), p[param::Jp]};
+    effects.apply(mass);
+    m_ = mass.m, J_ = mass.J, c_B_ = mass.c_B, Jp_ = mass.Jp;
+    J_inverse_ = inverse(J_);
+    off_centre_ = !is_identically_zero(c_B_[0]) || !is_identically_zero(c_B_[1]) ||
+                  !is_identically_zero(c_B_[2]) || (effects.touches() & kTouchCentre) != 0;
+    spinning_ = !is_identically_zero(Jp_) || (effects.touches() & kTouchSpin) != 0;
+    linear_drag_ = !is_identically_zero(p[param::Kdx]) || !is_identically_zero(p[param::Kdy]) ||
+                   !is_identically_zero(p[param::Kdz]);
+    const S c = cos(p[param::alpha]), s = sin(p[param::alpha]);
+    for (const Rotor& rotor : vehicle.rotors) {
+      if (rotor.slant_B.isZero()) {
+        a_B_.push_back(Vec3<S>(S(rotor.a_B[0]), S(rotor.a_B[1]), S(rotor.a_B[2])));
+      } else {
+        a_B_.push_back(Vec3<S>(s * rotor.slant_B[0], s * rotor.slant_B[1], -c));
+      }
+    }
+    const double kT = value(p[param::kT]), n = static_cast<double>(vehicle.rotors.size());
+    Omega_hover_ = kT > 0 ? std::sqrt(value(p[param::m]) * vehicle.g / (n * kT)) : 1.0;
+    air_.wind_W = Vec3<S>(S(0.0), S(0.0), S(0.0));
+    effects.apply(air_);
+  }
+
+  /// Equations (3) and (4) with the rotor and body seams; `R_WB` belongs to `state.q_WB`.
+  Wrench<S> wrench(const BodyState<S>& state, const Mat3<S>& R_WB,
+                   std::span<const MotorState<S>> motors) const {
+    const S zero(0.0);
+    Wrench<S> sum{Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
+    const bool flow = (effects_->touches() & kTouchFlow) != 0;
+    Vec3<S> v_air_B(zero, zero, zero);
+    if (flow || linear_drag_) v_air_B = turned_into_body(R_WB, Vec3<S>(state.v_W - air_.wind_W));
+    for (std::size_t n = 0; n < a_B_.size(); ++n) {
+      const Rotor& geometry = vehicle_->rotors[n];
+      const S& Omega = motors[n].Omega;
+      const S Omega2 = Omega * Omega;
+      const double s = geometry.s;
+      Vec3<S> a = a_B_[n], F;
+      S Q;
+      if (flow) {
+        RotorSeam<S> rotor{static_cast<int>(n),
+                           Omega_hover_,
+                           Omega,
+                           Vec3<S>(v_air_B + cross(state.w_B, geometry.r_B)),
+                           vehicle_->ground_z - (state.x_W[2] + R_WB(2, 0) * geometry.r_B[0] +
+                                                 R_WB(2, 1) * geometry.r_B[1] + R_WB(2, 2) * geometry.r_B[2]),
+                           a,
+                           p_[param::kT] * Omega2,
+                           p_[param::kQ] * Omega2,
+                           Vec3<S>(zero, zero, zero),
+                           Vec3<S>(zero, zero, zero)};
+        effects_->apply(rotor);
+        a = rotor.a_B;
+        F = rotor.T * a + rotor.F_B;  // (3)
+        sum.M_B += rotor.M_B;
+        Q = rotor.Q;
+      } else {
+        F = (p_[param::kT] * Omega2) * a;  // (3)
+        Q = p_[param::kQ] * Omega2;
+      }
+      sum.F_B += F;
+      sum.M_B += cross(geometry.r_B, F);  // (4)
+      if (spinning_) {
+        const double sigma = vehicle_->signs == Signs::first_principles ? 1.0 : -1.0;  // erratum 1
+        const S h = (sigma * s) * Jp_;
+        sum.M_B -= (s * Q + h * motors[n].Omega_dot) * a;  // (4)
+        sum.M_B -= (h * Omega) * cross(state.w_B, a);      // (4)
+      } else {
+        sum.M_B -= (s * Q) * a;  // (4)
+      }
+    }
+    if (flow) {
+      BodySeam<S> body{v_air_B, Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
+      effects_->apply(body);
+      sum.F_B += body.F_B;
+      sum.M_B += body.M_B + cross(c_B_, body.F_B);
+    }
+    if (linear_drag_) {
+      const Vec3<S> drag_W(-p_[param::Kdx] * state.v_W[0], -p_[param::Kdy] * state.v_W[1],
+                           -p_[param::Kdz] * state.v_W[2]);
+      const Vec3<S> drag_B = turned_into_body(R_WB, drag_W);
+      sum.F_B += drag_B;
+      sum.M_B += cross(c_B_, drag_B);
+    }
+    return sum;
+  }
+
+  /// Equations (5) to (7).
+  BodyRate<S> rate(const BodyState<S>& state, std::span<const MotorState<S>> motors) const {
+    const Mat3<S> R_WB = rotation(state.q_WB);
+    const Wrench<S> total = wrench(state, R_WB, motors);
+    const Vec3<S>& w = state.w_B;
+    BodyRate<S> out;
+    Vec3<S> M = total.M_B - cross(w, Vec3<S>(J_ * w));
+    if (off_centre_) M -= cross(c_B_, total.F_B);
+    out.w_dot_B = J_inverse_ * M;  // (5)
+    out.f_B = total.F_B / m_;      // (6)
+    if (off_centre_) out.f_B -= cross(out.w_dot_B, c_B_) + cross(w, cross(w, c_B_));
+    out.v_dot_W = R_WB * out.f_B;
+    out.v_dot_W[2] = out.v_dot_W[2] + vehicle_->g;
+    const Vec4<S>& q = state.q_WB;  // (7)
+    out.q_dot = Vec4<S>(
+        0.5 * (-(q[1] * w[0]) - q[2] * w[1] - q[3] * w[2]), 0.5 * (q[0] * w[0] + q[2] * w[2] - q[3] * w[1]),
+        0.5 * (q[0] * w[1] + q[3] * w[0] - q[1] * w[2]), 0.5 * (q[0] * w[2] + q[1] * w[1] - q[2] * w[0]));
+    out.x_dot_W = state.v_W;
+    return out;
+  }
+
+  const S& mass() const { return m_; }
+  const Mat3<S>& J() const { return J_; }
+  const Vec3<S>& centre_of_gravity() const { return c_B_; }
+  double Omega_hover() const { return Omega_hover_; }
+
+ private:
+  static Mat3<S> inertia_matrix(std::span<const S> p) {
+    Mat3<S> J;
+    J(0, 0) = p[param::Jxx], J(1, 1) = p[param::Jyy], J(2, 2) = p[param::Jzz];
+    J(0, 1) = J(1, 0) = p[param::Jxy];
+    J(0, 2) = J(2, 0) = p[param::Jxz];
+    J(1, 2) = J(2, 1) = p[param::Jyz];
+    return J;
+  }
+  static Vec3<S> turned_into_body(const Mat3<S>& R_WB, const Vec3<S>& v_W) {
+    return Vec3<S>(dot(Vec3<S>(R_WB.col(0)), v_W), dot(Vec3<S>(R_WB.col(1)), v_W),
+                   dot(Vec3<S>(R_WB.col(2)), v_W));
+  }
+
+  const Vehicle* vehicle_;
+  std::span<const S> p_;
+  const Effects* effects_;
+  S m_, Jp_;
+  Mat3<S> J_, J_inverse_;
+  Vec3<S> c_B_;
+  AirSeam<S> air_;
+  std::vector<Vec3<S>> a_B_;
+  double Omega_hover_ = 1.0;
+  bool off_centre_ = false, spinning_ = false,
+       linear_drag_ = !is_identically_zero(p[param::Kdx]) || !is_identically_zero(p[param::Kdy]) ||
+                      !is_identically_zero(p[param::Kdz]);
+};
+
+}  // namespace ident

@@ -1,0 +1,155 @@
+// One step of the whole vehicle: motors exactly, body by Runge-Kutta 4 with the rotor speeds of that
+// solution.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "ident/model/body.h"
+
+namespace ident {
+
+constexpr int kMaxRotors = 8;
+
+/// What comes from outside over a log: commands or measured rotor speeds, and the battery.
+struct FlightInputs {
+  double t0 = 0.0;                         ///< start of the log, s
+  std::vector<HeldCommand> delta;          ///< per rotor; empty when rotor speeds are the input
+  std::vector<double> t;                   ///< times of the columns below
+  std::vector<std::vector<double>> Omega;  ///< [rotor][row], used when `delta` is empty; interpolated
+  std::vector<double> voltage_ratio;       ///< vbat over the voltage at which km holds; empty when not logged
+
+  bool commanded() const { return !delta.empty(); }
+};
+
+/// Whole state: body and motors.
+template <class S>
+struct FlightState {
+  BodyState<S> body;
+  std::array<MotorState<S>, kMaxRotors> motors;
+};
+
+/// The vehicle with one set of constants, able to make steps.
+template <class S, class Effects = NoEffects>
+class Flight {
+ public:
+  Flight(const Vehicle& vehicle, std::span<const S> p, const Effects& effects, const FlightInputs& inputs)
+      : body_(vehicle, p, effects),
+        p_(p),
+        effects_(&effects),
+        inputs_(&inputs),
+        rotors_(vehicle.rotors.size()) {
+    delays_ = {p[param::dead_time], S(0.0)};
+    effects.apply(delays_);
+    asymmetric_ = (effects.touches() & kTouchAsymmetry) != 0;
+    DriveSeam<S> drive{0.0, 1.0, false, S(1.0), S(1.0)};
+    effects.apply(drive);
+    down_ratio_ = drive.down_ratio;
+  }
+
+  const Body<S, Effects>& body() const { return body_; }
+  const S& sensor_delay() const { return delays_.sensor_delay; }
+
+  /// State h seconds later; `rate` at the start of the step is returned through `at_start` when asked for.
+  FlightState<S> step(const FlightState<S>& x, double t, double h, const BodyRate<S>& at_start) {
+    FlightState<S> next;
+    std::array<MotorState<S>, kMaxRotors> middle;
+    advance_motors(x.motors, t, h / 2, middle);
+    advance_motors(middle, t + h / 2, h / 2, next.motors);
+    const std::span<const MotorState<S>> mid(middle.data(), rotors_), end(next.motors.data(), rotors_);
+    const BodyRate<S>& k1 = at_start;
+    const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid);
+    const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid);
+    const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end);
+    next.body.q_WB = x.body.q_WB + (h / 6) * (k1.q_dot + 2.0 * (k2.q_dot + k3.q_dot) + k4.q_dot);
+    next.body.w_B = x.body.w_B + (h / 6) * (k1.w_dot_B + 2.0 * (k2.w_dot_B + k3.w_dot_B) + k4.w_dot_B);
+    next.body.v_W = x.body.v_W + (h / 6) * (k1.v_dot_W + 2.0 * (k2.v_dot_W + k3.v_dot_W) + k4.v_dot_W);
+    next.body.x_W = x.body.x_W + (h / 6) * (k1.x_dot_W + 2.0 * (k2.x_dot_W + k3.x_dot_W) + k4.x_dot_W);
+    return next;
+  }
+
+  /// Rates of change at a state. With measured rotor speeds as input the motors of `x` are set from them
+  /// first.
+  BodyRate<S> rate(FlightState<S>& x, double t) const {
+    if (!inputs_->commanded()) measured_motors(t, x.motors);
+    return body_.rate(x.body, std::span<const MotorState<S>>(x.motors.data(), rotors_));
+  }
+
+  /// Steady motor speeds for the command that holds at t: a start when nothing else is known.
+  S steady_speed(std::size_t rotor, double t) const { return target(rotor, t, 1e-6); }
+
+  /// What the IMU shows at a state with that rate; gyro bias is added by the caller.
+  SensorSeam<S> imu(const BodyState<S>& state, const BodyRate<S>& rate) const {
+    SensorSeam<S> seam{state.w_B, rate.w_dot_B, rate.f_B, state.w_B};
+    effects_->apply(seam);
+    return seam;
+  }
+
+ private:
+  static BodyState<S> moved(const BodyState<S>& x, const BodyRate<S>& k, double h) {
+    return {x.q_WB + h * k.q_dot, x.w_B + h * k.w_dot_B, x.v_W + h * k.v_dot_W, x.x_W + h * k.x_dot_W};
+  }
+
+  double interpolated(const std::vector<double>& column, double t) const {
+    const auto& axis = inputs_->t;
+    const auto next = std::upper_bound(axis.begin(), axis.end(), t);
+    if (next == axis.begin()) return column.front();
+    if (next == axis.end()) return column.back();
+    const auto i = static_cast<std::size_t>(next - axis.begin());
+    const double part = (t - axis[i - 1]) / (axis[i] - axis[i - 1]);
+    return column[i - 1] + part * (column[i] - column[i - 1]);
+  }
+
+  void measured_motors(double t, std::array<MotorState<S>, kMaxRotors>& motors) const {
+    constexpr double dt = 2e-3;
+    for (std::size_t n = 0; n < rotors_; ++n) {
+      const double before = interpolated(inputs_->Omega[n], t - dt),
+                   after = interpolated(inputs_->Omega[n], t + dt);
+      motors[n] = {S(interpolated(inputs_->Omega[n], t)), S((after - before) / (2 * dt))};
+    }
+  }
+
+  // Right-hand side of (1) over omega_m^2: Omega_0 + km delta, with the drive seam.
+  S target(std::size_t rotor, double t, double h) const {
+    DriveSeam<S> drive{t - inputs_->t0, 1.0, !inputs_->voltage_ratio.empty(), S(1.0), S(1.0)};
+    if (drive.has_voltage) drive.voltage_ratio = interpolated(inputs_->voltage_ratio, t + h / 2);
+    effects_->apply(drive);
+    const S delta = inputs_->delta[rotor].template mean<S>(t, t + h, delays_.command_delay);
+    return (p_[param::Omega_0] + p_[param::km] * delta) * drive.gain;
+  }
+
+  void advance_motors(const std::array<MotorState<S>, kMaxRotors>& from, double t, double h,
+                      std::array<MotorState<S>, kMaxRotors>& to) {
+    if (!inputs_->commanded()) return measured_motors(t + h, to);
+    if (h != h_) {
+      h_ = h;
+      up_ = motor_transition(p_[param::omega_m], p_[param::zeta_m], h);
+      if (asymmetric_) down_ = motor_transition(S(p_[param::omega_m] * down_ratio_), p_[param::zeta_m], h);
+    }
+    for (std::size_t n = 0; n < rotors_; ++n) {
+      const S goal = target(n, t, h);
+      to[n] = up_(from[n], goal);
+      if (!asymmetric_) continue;
+      // The slower natural frequency holds while the rotor is above its target; blended over 2 rad/s so that
+      // the change has a derivative.
+      const double excess = (value(from[n].Omega) - value(goal)) / 2.0;
+      const double share = excess > 30 ? 1.0 : excess < -30 ? 0.0 : 1.0 / (1.0 + std::exp(-excess));
+      const MotorState<S> slow = down_(from[n], goal);
+      to[n].Omega = to[n].Omega + share * (slow.Omega - to[n].Omega);
+      to[n].Omega_dot = to[n].Omega_dot + share * (slow.Omega_dot - to[n].Omega_dot);
+    }
+  }
+
+  Body<S, Effects> body_;
+  std::span<const S> p_;
+  const Effects* effects_;
+  const FlightInputs* inputs_;
+  std::size_t rotors_;
+  TimeSeam<S> delays_;
+  S down_ratio_;
+  bool asymmetric_ = false;
+  double h_ = -1.0;
+  MotorTransition<S> up_, down_;
+};
+
+}  // namespace ident

@@ -1,0 +1,105 @@
+// The motor with its speed controller: second order, solved exactly for a command that is held constant.
+//
+//   Omega'' + 2 zeta_m omega_m Omega' + omega_m^2 Omega = omega_m^2 (Omega_0 + km delta(t - dead_time))   (1)
+//   [Phang 22]
+//
+// Departure from [Phang 22]: dead time, and an offset Omega_0 for real command curves (0 is the source's
+// form). With target = Omega_0 + km delta constant over h, x = (Omega - target, Omega') obeys x' = A x, and
+//
+//   exp(A h) = exp(-zeta_m omega_m h) [ C(z) I + h S(z) (A + zeta_m omega_m I) ]                          (2)
+//   z = omega_m^2 (zeta_m^2 - 1) h^2,  C(z) = cosh(sqrt z),  S(z) = sinh(sqrt z)/sqrt z
+//
+// C and S are entire functions of z, so (2) has finite derivatives through zeta_m = 1 and at h = 0.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "ident/core/math.h"
+
+namespace ident {
+
+/// Rotor speed, rad/s, and its rate, rad/s^2.
+template <class S>
+struct MotorState {
+  S Omega{}, Omega_dot{};
+};
+
+/// exp(A h): carries the deviation from the target over a step.
+template <class S>
+struct MotorTransition {
+  S p11, p12, p21, p22;
+
+  MotorState<S> operator()(const MotorState<S>& x, const S& target) const {
+    const S d = x.Omega - target;
+    return {target + p11 * d + p12 * x.Omega_dot, p21 * d + p22 * x.Omega_dot};
+  }
+};
+
+/// Equation (2) for a step of h seconds; omega_m > 0, zeta_m > 0. No overflow for strong overdamping.
+template <class S>
+MotorTransition<S> motor_transition(const S& omega_m, const S& zeta_m, double h) {
+  using std::cos, std::exp, std::sin, std::sqrt;
+  const S sigma = zeta_m * omega_m;
+  const S z = omega_m * omega_m * (zeta_m * zeta_m - 1.0) * (h * h);
+  S C, D;  // exp(-sigma h) times C(z) and h S(z)
+  if (value(z) > 0.25) {
+    const S root = sqrt(zeta_m * zeta_m - 1.0);
+    const S slow = exp(-(omega_m * h) / (zeta_m + root)), fast = exp(-(omega_m * h) * (zeta_m + root));
+    C = 0.5 * (slow + fast);
+    D = 0.5 * (slow - fast) / (omega_m * root);
+  } else if (value(z) < -0.25) {
+    const S omega_d = omega_m * sqrt(1.0 - zeta_m * zeta_m), decay = exp(-sigma * h);
+    C = decay * cos(omega_d * h);
+    D = decay * sin(omega_d * h) / omega_d;
+  } else {
+    S even(1.0), odd(1.0), even_term(1.0), odd_term(1.0);
+    for (int k = 1; k <= 8; ++k) {
+      even_term = even_term * z * (1.0 / ((2 * k - 1) * (2 * k)));
+      odd_term = odd_term * z * (1.0 / ((2 * k) * (2 * k + 1)));
+      even = even + even_term;
+      odd = odd + odd_term;
+    }
+    const S decay = exp(-sigma * h);
+    C = decay * even;
+    D = decay * odd * h;
+  }
+  return {C + sigma * D, D, -(omega_m * omega_m) * D, C - sigma * D};  // (2)
+}
+
+/// A command history held from each sample to the next; answers the mean over an interval.
+///
+/// The mean over [from - tau, to - tau] is continuous in the dead time tau and has its derivative
+/// -(delta(to - tau) - delta(from - tau))/(to - from), where a sampled command would have none.
+class HeldCommand {
+ public:
+  HeldCommand() = default;
+  /// `t` strictly increasing, `delta` of the same length; held before the first and after the last.
+  HeldCommand(std::vector<double> t, std::vector<double> delta)
+      : t_(std::move(t)), delta_(std::move(delta)), sum_(t_.size(), 0.0) {
+    for (std::size_t i = 1; i < t_.size(); ++i) sum_[i] = sum_[i - 1] + delta_[i - 1] * (t_[i] - t_[i - 1]);
+  }
+
+  template <class S>
+  S mean(double from, double to, const S& tau) const {
+    return (integral(S(to) - tau) - integral(S(from) - tau)) * (1.0 / (to - from));
+  }
+
+  /// Value that holds at time `at`.
+  double at(double at) const { return delta_[index(at)]; }
+
+ private:
+  std::size_t index(double at) const {
+    const auto next = std::upper_bound(t_.begin(), t_.end(), at);
+    return next == t_.begin() ? 0 : static_cast<std::size_t>(next - t_.begin()) - 1;
+  }
+  template <class S>
+  S integral(const S& at) const {
+    const std::size_t i = index(value(at));
+    return sum_[i] + delta_[i] * (at - t_[i]);
+  }
+
+  std::vector<double> t_, delta_, sum_;
+};
+
+}  // namespace ident

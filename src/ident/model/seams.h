@@ -1,0 +1,83 @@
+// The seams at which an effect may enter the flight model: what it sees there and what it may change.
+#pragma once
+
+#include "ident/core/math.h"
+
+namespace ident {
+
+/// Seam `mass`: properties of the body before they are used.
+template <class S>
+struct MassSeam {
+  S m;          ///< kg
+  Mat3<S> J;    ///< about the centre of gravity, kg m^2
+  Vec3<S> c_B;  ///< centre of gravity from the origin, m
+  S Jp;         ///< one propeller with its rotating motor parts, kg m^2
+};
+
+/// Seam `drive`: how a command becomes a rotor speed.
+template <class S>
+struct DriveSeam {
+  double t = 0.0;            ///< s from the start of the log
+  double voltage_ratio = 1;  ///< battery voltage over the voltage at which km holds; 1 when not logged
+  bool has_voltage = false;
+  S gain;        ///< factor on the steady rotor speed, starts at 1
+  S down_ratio;  ///< omega_m while slowing down over omega_m while speeding up, starts at 1
+};
+
+/// Seam `air`: the wind, world frame, m/s.
+template <class S>
+struct AirSeam {
+  Vec3<S> wind_W;
+};
+
+/// Seam `rotor`: one rotor in its flow. Forces act at the hub.
+template <class S>
+struct RotorSeam {
+  int index = 0;             ///< 0 for the first rotor
+  double Omega_hover = 1.0;  ///< nominal rotor speed at hover, rad/s
+  S Omega;                   ///< rad/s
+  Vec3<S> v_air_B;           ///< air-relative velocity of the hub, m/s
+  S height;                  ///< of the hub above the ground, m
+  Vec3<S> a_B;               ///< thrust axis; may be turned
+  S T, Q;                    ///< thrust N and drag torque N m; may be changed
+  Vec3<S> F_B, M_B;          ///< further force, N, and hub moment, N m; start at zero
+};
+
+/// Seam `body`: the airframe as a whole, forces at the centre of gravity.
+template <class S>
+struct BodySeam {
+  Vec3<S> v_air_B;
+  Vec3<S> F_B, M_B;
+};
+
+/// Seam `sensor`: what the IMU shows, starting from the truth at the origin.
+template <class S>
+struct SensorSeam {
+  Vec3<S> w_B, w_dot_B;  ///< body rates and their derivative, truth
+  Vec3<S> f_B;           ///< specific force, m/s^2; may be changed
+  Vec3<S> gyro;          ///< rates as shown, rad/s; may be changed
+};
+
+/// Seam `time`: delays, s.
+template <class S>
+struct TimeSeam {
+  S command_delay;  ///< of the motors' command
+  S sensor_delay;   ///< of rates and attitude
+};
+
+/// What an active effect touches, so that the model computes no more than it must.
+enum Touch : unsigned {
+  kTouchFlow = 1,       ///< rotor or body seam: needs the flow at each hub
+  kTouchCentre = 2,     ///< centre of gravity off the origin
+  kTouchSpin = 4,       ///< momentum of the rotors
+  kTouchAsymmetry = 8,  ///< spin-down differs from spin-up
+};
+
+/// The model without any effect: every seam is left as it is.
+struct NoEffects {
+  template <class Seam>
+  void apply(Seam&) const {}
+  static constexpr unsigned touches() { return 0; }
+};
+
+}  // namespace ident
