@@ -186,8 +186,7 @@ class Body {
   std::vector<Vec3<S>> a_B_;
   double Omega_hover_ = 1.0;
   bool off_centre_ = false, spinning_ = false,
-       linear_drag_ = !is_identically_zero(p[param::Kdx]) || !is_identically_zero(p[param::Kdy]) ||
-                      !is_identically_zero(p[param::Kdz]);
+       linear_drag_ = false;
 };
 
 }  // namespace ident
