@@ -36,17 +36,18 @@ struct Warning {
   std::string message;
 };
 
-/// One set of points in a plot. Non-finite values are gaps. What `y2` holds depends on the style: a band fills
-/// from y to y2, a bar floats from y2 to y (a waterfall), a point has an error bar of +-y2.
+/// One set of points in a plot. Non-finite values are gaps. What `y2` holds depends on the style: a band
+/// fills from y to y2, a bar floats from y2 to y (a waterfall), a point has an error bar of +-y2.
 struct Series {
   enum class Style { line, points, bars, measured, predicted, band };
-  std::string name;  ///< the channel; the same name has the same colour everywhere: "p measured", "p predicted"
+  std::string
+      name;  ///< the channel; the same name has the same colour everywhere: "p measured", "p predicted"
   std::vector<double> x, y, y2;
   Style style = Style::line;
 };
 
-/// A picture as data; axis labels carry the unit, `time_series` asks for an interactive plot. In an xy plot with
-/// `column_names` the x of bars is the index of a name.
+/// A picture as data; axis labels carry the unit, `time_series` asks for an interactive plot. In an xy plot
+/// with `column_names` the x of bars is the index of a name.
 struct Plot {
   enum class Kind { xy, time_series, heat_map };
   std::string id, title, caption;
@@ -94,6 +95,7 @@ struct Result {
   std::vector<InputFile> files;
   std::vector<std::string> command_line;
   std::optional<std::uint64_t> seed;
+  std::string version;  ///< of the ident that found it; empty for this one
 
   void warn(std::string code, std::string message) {
     warnings.push_back({std::move(code), std::move(message)});
