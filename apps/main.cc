@@ -1,2 +1,79 @@
 // Entry of the program `ident`: finds the subcommand, turns errors into exit status.
-int main() { return 0; }
+#include <iostream>
+#include <new>
+
+#include "ident/core/version.h"
+#include "shell.h"
+
+namespace ident::app {
+namespace {
+
+struct Registered {
+  CLI::App* cli;
+  Action action;
+  std::shared_ptr<SharedOptions> shared;
+};
+
+Registered add(CLI::App& program, const std::string& name, const std::string& summary,
+               Action (*declare)(CLI::App&)) {
+  CLI::App* cli = program.add_subcommand(name, summary);
+  auto shared = std::make_shared<SharedOptions>();
+  const Action action = declare(*cli);
+  cli->add_flag("--json", shared->json, "print the result as JSON on standard output, nothing else");
+  cli->add_option("--report", shared->report, "write a report: .html, .md or .json")->type_name("FILE");
+  return {cli, action, shared};
+}
+
+std::vector<Registered> add_commands(CLI::App& program) {
+  std::vector<Registered> list;
+#define IDENT_COMMAND(name, summary) list.push_back(add(program, #name, summary, &name##_command));
+#include "commands.def"
+#undef IDENT_COMMAND
+  return list;
+}
+
+int run(int argc, char** argv) {
+  CLI::App program(
+      "Identifies multirotors from bench and flight data and diagnoses what a simulation lacks.");
+  program.name("ident");
+  program.formatter(help_layout());
+  program.set_version_flag("--version", std::string("ident ") + version());
+  program.require_subcommand(1);
+  examples(program, {{"ident thrust sweep.csv", "thrust and torque constants from a bench sweep"},
+                     {"ident flightlog flight.csv --vehicle v.yaml --refine", "parameters from a flight"},
+                     {"ident gap flight.csv --vehicle v.yaml", "which effect does the model lack?"}});
+  const std::vector<Registered> commands = add_commands(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    std::cerr << "ident: " << usage_message(program, error) << "\n";
+    return static_cast<int>(ExitStatus::bad_input);
+  }
+  for (const Registered& command : commands) {
+    if (!command.cli->parsed()) continue;
+    Context context;
+    Outcome outcome = command.action(context);
+    return static_cast<int>(
+        finish(std::move(outcome), context, *command.shared, std::vector<std::string>(argv, argv + argc)));
+  }
+  return static_cast<int>(ExitStatus::bad_input);
+}
+
+}  // namespace
+}  // namespace ident::app
+
+int main(int argc, char** argv) {
+  using ident::ExitStatus;
+  try {
+    return ident::app::run(argc, argv);
+  } catch (const ident::Error& error) {
+    std::cerr << "ident: " << error.what() << "\n";
+    return static_cast<int>(error.status());
+  } catch (const std::bad_alloc&) {
+    std::cerr << "ident: not enough memory for this input\n";
+  } catch (const std::exception& error) {
+    std::cerr << "ident: unexpected failure: " << error.what() << "\n";
+  }
+  return static_cast<int>(ExitStatus::data_do_not_allow);
+}

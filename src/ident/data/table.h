@@ -17,10 +17,17 @@ struct Column {
   std::vector<double> values;
 };
 
+/// A cell of text that is not a number (`axis` of a pendulum file) keeps its spelling here.
+struct TextColumn {
+  std::string name;
+  std::vector<std::string> values;
+};
+
 /// Rows of one file. All columns have the same length; `line[i]` is the line of row i in the file.
 struct NumberTable {
   std::string file;
   std::vector<Column> columns;
+  std::vector<TextColumn> text;  ///< columns of words
   std::vector<long> line;
   std::vector<Warning> warnings;     ///< what was noticed while reading (ignored columns, separator)
   std::vector<std::string> notices;  ///< decisions worth printing: separator, decimal mark, encoding
@@ -32,12 +39,12 @@ struct NumberTable {
       if (c.name == name) return &c.values;
     return nullptr;
   }
-};
-
-/// A cell of text that is not a number (`axis` of a pendulum file) keeps its spelling here.
-struct TextColumn {
-  std::string name;
-  std::vector<std::string> values;
+  /// Cells of the column of words of that name, or nullptr.
+  const std::vector<std::string>* find_text(std::string_view name) const {
+    for (const TextColumn& c : text)
+      if (c.name == name) return &c.values;
+    return nullptr;
+  }
 };
 
 }  // namespace ident

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "ident/core/result.h"
+
 namespace ident {
 
 /// A rotor as mounted, body frame FRD. An upright rotor has axis (0,0,-1). With `slant_B` not zero the axis
@@ -48,6 +50,7 @@ struct Vehicle {
   std::optional<double> battery_voltage;   ///< V at which km holds (battery_sag's v0)
   Signs signs = Signs::first_principles;
   std::map<std::string, Known> parameters;
+  std::vector<Warning> warnings;  ///< what was noticed in the file
 
   bool has(const std::string& parameter) const { return parameters.count(parameter) > 0; }
   /// Value of a parameter that the vehicle states, else its default.

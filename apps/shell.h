@@ -1,0 +1,27 @@
+// The parts of the program around the subcommands: help, and the end of every command.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command.h"
+
+namespace ident::app {
+
+/// Options that the shell adds to every subcommand.
+struct SharedOptions {
+  bool json = false;
+  std::string report;
+};
+
+/// Layout of help texts: summary, examples, then usage and options.
+std::shared_ptr<CLI::FormatterBase> help_layout();
+
+/// What is wrong with the command line, with the nearest word that would have been right.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& error);
+
+/// Completes the result (command line, hashes), writes all outputs, prints. Returns the exit status.
+ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options,
+                  const std::vector<std::string>& command_line);
+
+}  // namespace ident::app

@@ -1,0 +1,79 @@
+// The end of every command: provenance, report, all outputs at once, standard output last.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "ident/core/version.h"
+#include "ident/io/sha256.h"
+#include "ident/report/report.h"
+#include "shell.h"
+
+namespace ident::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool colour_wanted() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+void add_provenance(Result& result, const Context& context, const std::vector<std::string>& command_line) {
+  std::vector<std::string> paths = result.inputs;
+  paths.insert(paths.end(), context.used.begin(), context.used.end());
+  for (const std::string& path : paths) {
+    const bool known = std::ranges::any_of(result.files, [&](const InputFile& f) { return f.path == path; });
+    if (!known && fs::is_regular_file(path)) result.files.push_back({path, sha256_of_file(path)});
+  }
+  result.command_line = command_line;
+  if (!context.notices.empty()) result.extra["notices"] = context.notices;
+}
+
+nlohmann::ordered_json json_with_provenance(const Result& result) {
+  nlohmann::ordered_json json = to_json(result);
+  json["version"] = version();
+  json["command_line"] = result.command_line;
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const InputFile& file : result.files) files.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  json["files"] = files;
+  return json;
+}
+
+std::string json_text(const Result& result) {
+  // File names may hold bytes that are no UTF-8: replaced, not refused.
+  return json_with_provenance(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string report_content(const Result& result, const std::string& path) {
+  const std::string extension = fs::path(path).extension().string();
+  if (extension == ".json") return json_text(result);
+  return extension == ".md" ? render_markdown(result) : render_html(result);
+}
+
+void print(const std::string& text) {
+  const bool complete = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!complete || std::fflush(stdout) != 0) throw OutputError("standard output cannot be written");
+}
+
+}  // namespace
+
+ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options,
+                  const std::vector<std::string>& command_line) {
+  Result& result = outcome.result;
+  add_provenance(result, context, command_line);
+  if (!options.report.empty()) context.outputs.add(options.report, report_content(result, options.report));
+  const std::string text =
+      options.json ? json_text(result) : render_text(result, {.colour = colour_wanted()});
+  context.outputs.prepare();
+  print(text);
+  context.outputs.commit();
+  if (!options.json)
+    for (const std::string& notice : context.notices) fmt::print(stderr, "note: {}\n", notice);
+  return outcome.status;
+}
+
+}  // namespace ident::app

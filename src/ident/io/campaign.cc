@@ -1,0 +1,83 @@
+// Reads ident.yaml and lays estimates over what is known.
+#include "ident/io/campaign.h"
+
+#include <filesystem>
+
+#include "ident/core/error.h"
+#include "ident/io/vehicle_file.h"
+#include "ident/io/yaml_value.h"
+
+namespace ident {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "ident.yaml";
+const std::vector<std::string> kKeys = {"vehicle", "parameters", "thrust", "motor", "inertia", "map", "logs"};
+
+/// The path of a file that a value names; it has to exist unless it is still to be written.
+std::string named_file(const YamlValue& value, const fs::path& folder, bool has_to_exist = true) {
+  const std::string text = value.text();
+  if (text.empty()) value.fail("names no file");
+  const fs::path path = (folder == "." ? fs::path(text) : folder / text).lexically_normal();
+  if (has_to_exist && !fs::exists(path)) value.fail("there is no file '" + path.string() + "'");
+  return path.string();
+}
+
+std::vector<YamlValue> one_or_many(const YamlValue& value) {
+  return value.is_list() ? value.list() : std::vector<YamlValue>{value};
+}
+
+std::vector<std::string> named_files(const YamlValue& file, const std::string& key, const fs::path& folder) {
+  std::vector<std::string> paths;
+  if (!file.has(key)) return paths;
+  for (const YamlValue& value : one_or_many(file.at(key))) paths.push_back(named_file(value, folder));
+  return paths;
+}
+
+CampaignLog read_log(const YamlValue& value, const fs::path& folder, const std::string& common_map) {
+  static const std::vector<std::string> keys = {"file", "map"};
+  if (!value.is_map()) return {named_file(value, folder), common_map};
+  value.expect_map(keys);
+  return {named_file(value.at("file"), folder),
+          value.has("map") ? named_file(value.at("map"), folder) : common_map};
+}
+
+}  // namespace
+
+std::optional<Campaign> find_campaign(const std::string& folder) {
+  if (!fs::exists(fs::path(folder) / kFile)) return std::nullopt;
+  return read_campaign(folder);
+}
+
+Campaign read_campaign(const std::string& folder) {
+  const fs::path place(folder.empty() ? "." : folder);
+  Campaign campaign;
+  campaign.file = (place / kFile).lexically_normal().string();
+  const YamlValue file = load_yaml(campaign.file);
+  file.expect_map(kKeys);
+  campaign.vehicle = named_file(file.at("vehicle"), place);
+  campaign.parameters = file.has("parameters") ? named_file(file.at("parameters"), place, false)
+                                               : (place / "parameters.yaml").lexically_normal().string();
+  campaign.thrust = named_files(file, "thrust", place);
+  campaign.motor = named_files(file, "motor", place);
+  campaign.inertia = named_files(file, "inertia", place);
+  const std::string map = file.has("map") ? named_file(file.at("map"), place) : "";
+  if (file.has("logs"))
+    for (const YamlValue& value : one_or_many(file.at("logs")))
+      campaign.logs.push_back(read_log(value, place, map));
+  return campaign;
+}
+
+Vehicle campaign_vehicle(const Campaign& campaign) {
+  Vehicle vehicle = read_vehicle(campaign.vehicle);
+  if (!fs::exists(campaign.parameters)) return vehicle;
+  return with_parameters(std::move(vehicle), read_vehicle(campaign.parameters));
+}
+
+std::string updated_parameters(const Campaign& campaign, const Result& result) {
+  const bool exists = fs::exists(campaign.parameters);
+  return vehicle_to_yaml(with_result(exists ? read_vehicle(campaign.parameters) : Vehicle(), result));
+}
+
+}  // namespace ident
