@@ -75,7 +75,7 @@ struct LeastSquaresFit {
   std::vector<std::string> names;
   Eigen::VectorXd x;
   std::vector<Coordinate> coordinates;
-  Eigen::MatrixXd covariance;        ///< of x; infinite variance for what is not determined
+  Eigen::MatrixXd covariance;  ///< of x; variance infinite for what is not determined, rest of its row 0
   Eigen::MatrixXd naive_covariance;  ///< as if the residuals were independent and of equal size
   int rank = 0;
   /// One column per direction that the data do not determine: components relative to the value for positive
@@ -100,7 +100,9 @@ struct LeastSquaresFit {
   double std_of(const Eigen::VectorXd& gradient) const;
   double dof_of(const Eigen::VectorXd& gradient) const;
 
-  // How the covariance depends on the constants of the noise, and how well those are known.
+  // What std_of and dof_of work with: covariance within the determined directions, its change along each
+  // constant of the noise, and the covariance of those constants.
+  Eigen::MatrixXd determined_covariance;
   std::vector<Eigen::MatrixXd> covariance_slopes;
   Eigen::MatrixXd noise_constants_covariance;
 };

@@ -40,8 +40,8 @@ struct RobustMean {
 /// Needs 2 values for a scale; below 5 values nothing is rejected.
 RobustMean robust_mean(std::span<const double> x);
 
-/// How many standard deviations a normal sample of that size hardly ever exceeds: a quarter of a false
-/// alarm is expected, and never fewer than 3.
+/// How many standard deviations a normal sample of that size hardly ever exceeds: one in twenty samples loses
+/// a value by mistake; never fewer than 3.
 double outlier_cut(std::size_t sample_size);
 
 /// Variance of a normal distribution cut at +- `cut` standard deviations, relative to the uncut one.

@@ -1,0 +1,97 @@
+// Prediction errors of autoregressive noise, exact at the start of a series and across missing rows.
+#include "ident/estimators/least_squares_whitening.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+constexpr Eigen::Index kLongestMemory = 400;  // rows further apart count as independent
+
+/// Levinson-Durbin: partial autocorrelations to coefficients.
+Eigen::VectorXd coefficients(const Eigen::VectorXd& partial) {
+  Eigen::VectorXd phi(partial.size());
+  for (Eigen::Index k = 0; k < partial.size(); ++k) {
+    const Eigen::VectorXd before = phi.head(k);
+    phi.head(k) = before - partial(k) * before.reverse();
+    phi(k) = partial(k);
+  }
+  return phi;
+}
+
+/// Autocovariance at lags 0 to p by the Yule-Walker equations, innovations of variance 1.
+Eigen::VectorXd yule_walker(const Eigen::VectorXd& phi) {
+  const Eigen::Index p = phi.size();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(p + 1, p + 1);
+  for (Eigen::Index lag = 0; lag <= p; ++lag)
+    for (Eigen::Index k = 1; k <= p; ++k) A(lag, std::abs(lag - k)) -= phi(k - 1);
+  return A.partialPivLu().solve(Eigen::VectorXd::Unit(p + 1, 0));
+}
+
+}  // namespace
+
+Colour::Colour(Eigen::VectorXd partial) : partial_(std::move(partial)), phi_(coefficients(partial_)) {
+  const Eigen::VectorXd first = yule_walker(phi_);
+  covariance_.assign(first.data(), first.data() + first.size());
+  if (order() > 0)
+    while (static_cast<Eigen::Index>(covariance_.size()) <= kLongestMemory) {
+      double next = 0.0;
+      for (Eigen::Index k = 0; k < order(); ++k)
+        next += phi_(k) * covariance_[covariance_.size() - 1 - static_cast<std::size_t>(k)];
+      covariance_.push_back(next);
+    }
+}
+
+double Colour::covariance(Eigen::Index lag) const {
+  return lag < static_cast<Eigen::Index>(covariance_.size()) ? covariance_[static_cast<std::size_t>(lag)]
+                                                             : 0.0;
+}
+
+double Colour::whiten(Eigen::Index begin, Eigen::Index end, const std::vector<bool>& missing,
+                      Eigen::MatrixXd& rows) const {
+  if (order() == 0) return 0.0;
+  const Eigen::Index p = order(), n = end - begin;
+  const Eigen::MatrixXd raw = rows.middleRows(begin, n);
+  for (Eigen::Index k = 1; k <= std::min(p, n - 1); ++k)
+    rows.middleRows(begin + k, n - k) -= phi_(k - 1) * raw.topRows(n - k);
+
+  // The start of a series and the rows behind a gap need the best prediction from what is there.
+  std::deque<Eigen::Index> seen;  // the last rows that are there, newest first
+  double log_variances = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto known = static_cast<Eigen::Index>(seen.size());
+    const bool regular = known >= p && seen[static_cast<std::size_t>(p - 1)] == i - p;
+    const bool absent = missing[static_cast<std::size_t>(begin + i)];
+    if (!regular) {
+      const Prediction best = predict(i, seen);
+      Eigen::RowVectorXd error = raw.row(i);
+      for (Eigen::Index a = 0; a < known; ++a)
+        error -= best.weight(a) * raw.row(seen[static_cast<std::size_t>(a)]);
+      rows.row(begin + i) = error / std::sqrt(best.variance);
+      if (!absent) log_variances += std::log(best.variance);
+    }
+    if (absent) continue;
+    seen.push_front(i);
+    if (static_cast<Eigen::Index>(seen.size()) > 2 * p) seen.pop_back();
+  }
+  return log_variances;
+}
+
+Colour::Prediction Colour::predict(Eigen::Index i, const std::deque<Eigen::Index>& seen) const {
+  const auto known = static_cast<Eigen::Index>(seen.size());
+  Eigen::MatrixXd K(known, known);
+  Eigen::VectorXd c(known);
+  for (Eigen::Index a = 0; a < known; ++a) {
+    const Eigen::Index at = seen[static_cast<std::size_t>(a)];
+    c(a) = covariance(i - at);
+    for (Eigen::Index b = 0; b < known; ++b)
+      K(a, b) = covariance(std::abs(at - seen[static_cast<std::size_t>(b)]));
+  }
+  const Eigen::VectorXd weight = K.llt().solve(c);
+  return {weight, covariance(0) - c.dot(weight)};
+}
+
+}  // namespace ident

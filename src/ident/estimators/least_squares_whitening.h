@@ -1,0 +1,45 @@
+// Autoregressive noise: decorrelates rows of residuals and Jacobian, with rows missing where there were
+// outliers.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <vector>
+
+namespace ident {
+
+/// Stationary autoregressive noise of order p with innovations of variance 1,
+///
+///     r_i = phi_1 r_(i-1) + ... + phi_p r_(i-p) + e_i
+///
+/// given by its partial autocorrelations, each in (-1, 1): every such set is stationary.
+class Colour {
+ public:
+  explicit Colour(Eigen::VectorXd partial = Eigen::VectorXd());
+
+  Eigen::Index order() const { return phi_.size(); }
+  const Eigen::VectorXd& partial() const { return partial_; }
+  const Eigen::VectorXd& phi() const { return phi_; }
+  double variance() const { return covariance(0); }
+  double rho() const { return covariance(1) / covariance(0); }
+  /// Covariance of two values `lag` steps apart.
+  double covariance(Eigen::Index lag) const;
+
+  /// Replaces rows [begin, end) of one series by their prediction errors from the rows before them, divided
+  /// by the error's standard deviation. A missing row predicts nothing, and its own error is kept.
+  /// Returns sum log(variance) over the rows that are there.
+  double whiten(Eigen::Index begin, Eigen::Index end, const std::vector<bool>& missing,
+                Eigen::MatrixXd& rows) const;
+
+ private:
+  struct Prediction {
+    Eigen::VectorXd weight;
+    double variance;
+  };
+  Prediction predict(Eigen::Index i, const std::deque<Eigen::Index>& seen) const;
+
+  Eigen::VectorXd partial_, phi_;
+  std::vector<double> covariance_;
+};
+
+}  // namespace ident
