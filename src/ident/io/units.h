@@ -25,14 +25,9 @@ enum class Dimension {
   pulse_width,   ///< us: the one quantity that is not SI inside
 };
 
-struct Unit {
-  double scale = 1.0;  ///< SI value = scale * number + offset
-  double offset = 0.0;
-};
-
-/// Unit of a dimension by its spelling, without case where that is unambiguous: `deg/s`, `rpm`, `N·m`, `Nm`,
-/// `gf`.
-std::optional<Unit> find_unit(std::string_view spelling, Dimension dimension);
+/// SI value of one unit of a dimension by its spelling: `deg/s`, `rpm`, `N·m`, `Nm`, `gf`. Case counts only
+/// where it has to (`mN`). Empty when that is no unit of the dimension.
+std::optional<double> unit_factor(std::string_view spelling, Dimension dimension);
 
 /// The spellings of a dimension's units, for messages.
 std::string known_units(Dimension dimension);
