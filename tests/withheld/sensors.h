@@ -1,0 +1,34 @@
+// The instruments: what they show of the true motion, with the sensor effects of the case, and their noise.
+#pragma once
+
+#include "physics.h"
+#include "random.h"
+
+namespace withheld {
+
+struct Instruments {
+  double rate = 250;       // Hz, of rates, specific force, attitude, commands, rotor speeds
+  int position_every = 5;  // rows
+  int voltage_every = 25;
+  double jitter = 0.02;  // of the period
+  bool rotor_speeds = true, pulse_widths = true;
+  double gyro = 0.005, acc = 0.1, attitude = 0.003, position = 0.003, velocity = 0.02;  // white, 1 sample
+  double speed_share = 0.003;  // of hover speed, white
+  double voltage_share = 0.002;
+  double gyro_bias = 0.004;  // rad/s, turn-on, standard deviation over logs
+};
+
+Instruments draw_instruments(const Vehicle& vehicle, Random& random);
+
+// Without noise: IMU place, turn, bias; `late` is the motion that delayed rates and attitude show.
+struct Shown {
+  Eigen::Vector3d gyro, acc;
+  Eigen::Quaterniond q;
+  Eigen::Vector3d p, v;
+};
+Shown show(const Effects& effects, const Motion& motion, const Motion& late,
+           const Acceleration& acceleration);
+
+Eigen::Quaterniond small_turn(const Eigen::Vector3d& angle);
+
+}  // namespace withheld
