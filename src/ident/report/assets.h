@@ -5,6 +5,9 @@
 
 namespace ident {
 
+extern const std::string_view kLightColours;  ///< declarations of custom properties
+extern const std::string_view kDarkColours;
+extern const std::string_view kPlotStyle;
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageScript;
 extern const std::string_view kPlotLibrary;       ///< uPlot; empty when the build did not find it

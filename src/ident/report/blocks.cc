@@ -50,22 +50,22 @@ Table parameter_table(const Result& result) {
   const bool naive = any_parameter(result, [](const Parameter& p) { return p.naive_std.has_value(); });
   const bool prior = any_parameter(result, [](const Parameter& p) { return p.prior_value.has_value(); });
   const bool share = any_parameter(result, [](const Parameter& p) { return p.from_flight.has_value(); });
-  Table table{
-      .title = "Parameters", .columns = {"Parameter", "Value", "Unit", "95 % interval", "Std"}, .rows = {}};
-  if (naive) table.columns.emplace_back("Naive std");
+  Table table{.title = "Parameters",
+              .columns = {"Parameter", "Value", "Unit", "95 % interval", naive ? "Std (naive)" : "Std"},
+              .rows = {}};
   if (prior) table.columns.insert(table.columns.end(), {"Prior", "Pull"});
   if (share) table.columns.emplace_back("From data");
-  table.columns.insert(table.columns.end(), {"Source", "Status"});
+  table.columns.insert(table.columns.end(), {"Source", "Identifiable"});
   for (const Parameter& p : result.parameters) {
     std::vector<std::string> row{p.name, format_rounded(p.value, p.std), p.unit,
                                  format_interval(p.ci95, p.value, p.std), format_number(p.std, 2)};
-    if (naive) row.push_back(optional_number(p.naive_std, 2));
+    if (p.naive_std) row.back() += " (" + format_number(*p.naive_std, 2) + ")";
     if (prior) {
       row.push_back(p.prior_value ? format_with_uncertainty(*p.prior_value, p.prior_std.value_or(kNaN)) : "");
       row.push_back(optional_number(p.pull, 2));
     }
     if (share) row.push_back(percent(p.from_flight));
-    row.insert(row.end(), {p.source, status_of(p)});
+    row.insert(row.end(), {p.source, p.identifiable ? "yes" : "no"});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -86,9 +86,12 @@ Table provenance_table(const Result& result) {
   return table;
 }
 
-std::string status_of(const Parameter& parameter) {
-  if (parameter.identifiable) return "identified";
-  return parameter.note.empty() ? "not identifiable" : "not identifiable: " + parameter.note;
+std::vector<std::string> not_identifiable(const Result& result) {
+  std::vector<std::string> lines;
+  for (const Parameter& p : result.parameters)
+    if (!p.identifiable)
+      lines.push_back(p.name + " is not identifiable" + (p.note.empty() ? "." : ": " + p.note));
+  return lines;
 }
 
 std::string title_of(const Result& result) {

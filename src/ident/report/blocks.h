@@ -8,7 +8,8 @@
 
 namespace ident {
 
-/// Name, value, unit, interval and source; naive deviation, prior and pull where any parameter has them.
+/// Name, value, unit, interval, deviation (the naive one beside it) and source; prior, pull and the share of
+/// the data where any parameter has them.
 Table parameter_table(const Result& result);
 
 /// The numbers of `Result::fit` under their dotted names; empty without any.
@@ -17,8 +18,8 @@ Table fit_table(const Result& result);
 /// Command, version, seed, and the hash of every input: what a stranger needs to repeat the result.
 Table provenance_table(const Result& result);
 
-/// "identified", or why not.
-std::string status_of(const Parameter& parameter);
+/// A line for each parameter that the data do not determine, with the reason.
+std::vector<std::string> not_identifiable(const Result& result);
 
 /// "ident thrust" from the command, as the title of a page or a chapter.
 std::string title_of(const Result& result);

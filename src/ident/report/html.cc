@@ -1,85 +1,136 @@
-// The HTML page of a result: text and tables here, pictures from the plot files.
+// The HTML page of a result: headings, tables and pictures in the order in which they are read.
+#include <fmt/format.h>
+
 #include "ident/report/assets.h"
 #include "ident/report/blocks.h"
 #include "ident/report/escape.h"
+#include "ident/report/html_table.h"
+#include "ident/report/plot_data.h"
+#include "ident/report/plot_svg.h"
 #include "ident/report/report.h"
+#include "ident/report/theme.h"
 
 namespace ident {
 namespace {
 
-std::string heading(int level, const std::string& text) {
-  const std::string tag = "h" + std::to_string(level);
-  return "<" + tag + ">" + escape_html(text) + "</" + tag + ">\n";
-}
-
-std::string paragraph(const std::string& text, const std::string& css_class = "") {
-  if (text.empty()) return "";
-  return "<p" + (css_class.empty() ? "" : " class=\"" + css_class + "\"") + ">" + escape_html(text) +
-         "</p>\n";
-}
-
-std::string table_of(const Table& table, const std::string& caption) {
-  if (table.columns.empty()) return "";
-  std::string out = "<div class=\"scroll\"><table>";
-  if (!caption.empty()) out += "<caption>" + escape_html(caption) + "</caption>";
-  out += "<thead><tr>";
-  for (const std::string& name : table.columns) out += "<th scope=\"col\">" + escape_html(name) + "</th>";
-  out += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
-    out += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c)
-      out += c == 0 ? "<th scope=\"row\">" + escape_html(row[c]) + "</th>"
-                    : "<td>" + escape_html(row[c]) + "</td>";
-    out += "</tr>\n";
+std::string paragraphs(const std::string& text, const std::string& attributes = "") {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find("\n\n", at), text.size());
+    if (end > at) out += "<p" + attributes + ">" + escape_html(text.substr(at, end - at)) + "</p>\n";
+    at = end + 2;
   }
-  return out + "</tbody></table></div>\n";
+  return out;
 }
+
+/// Collects body, table of contents and plot data while a page is written.
+class Page {
+ public:
+  void heading(int level, const std::string& text) {
+    const std::string id = fmt::format("part{}", ++parts_);
+    body_ += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", level, id, escape_html(text));
+    if (level > 1 && level < 4)
+      contents_ +=
+          fmt::format("<li class=\"level{}\"><a href=\"#{}\">{}</a></li>\n", level, id, escape_html(text));
+  }
+  void add(const std::string& html) { body_ += html; }
+
+  void figure(const Plot& plot, const std::string& group) {
+    const std::string id = fmt::format("figure{}", ++figures_);
+    body_ += fmt::format("<figure id=\"{}\"><figcaption><strong>{}</strong>", id, escape_html(plot.title));
+    if (!plot.caption.empty()) body_ += "<span>" + escape_html(plot.caption) + "</span>";
+    body_ += "</figcaption>\n";
+    const std::string picture = "<div class=\"picture\">" + plot_svg(plot, id) + "</div>";
+    if (plot.kind == Plot::Kind::time_series && !kPlotLibrary.empty())
+      body_ += fmt::format("<div class=\"chart\" data-plot=\"{}\">{}</div>", data_.add(plot, group), picture);
+    else
+      body_ += picture;
+    body_ += "</figure>\n";
+  }
+
+  void section(const Section& section, int level) {
+    body_ += "<section>";
+    heading(level, section.title);
+    body_ += paragraphs(section.text);
+    for (const Table& table : section.tables) body_ += html_table(table, table.title);
+    const std::string group = fmt::format("group{}", parts_);
+    for (const Plot& plot : section.plots) figure(plot, group);
+    body_ += "</section>\n";
+  }
+
+  void chapter(const Result& result, int level);
+  std::string finish(const std::string& title) const;
+
+ private:
+  std::string body_, contents_;
+  PlotData data_;
+  int parts_ = 0, figures_ = 0;
+};
 
 std::string warnings_of(const Result& result) {
-  if (result.warnings.empty()) return "<p class=\"none\">No warnings.</p>\n";
+  if (result.warnings.empty()) return "<p class=\"none-found\">No warnings.</p>\n";
   std::string out = "<ul class=\"warnings\">\n";
   for (const Warning& warning : result.warnings)
-    out += "<li><span class=\"code\">" + escape_html(warning.code) + "</span> " +
-           escape_html(warning.message) + "</li>\n";
+    out += "<li><b>" + escape_html(warning.code) + "</b> " + escape_html(warning.message) + "</li>\n";
   return out + "</ul>\n";
 }
 
-std::string section_of(const Section& section, int level) {
-  std::string out = "<section>" + heading(level, section.title) + paragraph(section.text);
-  for (const Table& table : section.tables) out += table_of(table, table.title);
-  return out + "</section>\n";
+void Page::chapter(const Result& result, int level) {
+  heading(level, title_of(result));
+  add(paragraphs(result.verdict, " class=\"verdict\""));
+  if (!result.parameters.empty()) {
+    heading(level + 1, "Parameters");
+    add(html_table(parameter_table(result), ""));
+    for (const std::string& line : not_identifiable(result)) add(paragraphs(line, " class=\"open\""));
+  }
+  heading(level + 1, "Checks and warnings");
+  add(warnings_of(result));
+  if (const Table fit = fit_table(result); !fit.rows.empty()) {
+    heading(level + 1, "Fit");
+    add(html_table(fit, ""));
+  }
+  for (const Section& part : result.sections) section(part, level + 1);
+  if (result.correlation.size() > 0) {
+    heading(level + 1, "Correlation");
+    figure(correlation_plot(result), "");
+  }
+  heading(level + 1, "Provenance");
+  add(verbatim_table(provenance_table(result)));
 }
 
-std::string chapter_of(const Result& result, int level) {
-  std::string out = "<article>" + heading(level, title_of(result)) + paragraph(result.verdict, "verdict");
-  if (!result.parameters.empty())
-    out += heading(level + 1, "Parameters") + table_of(parameter_table(result), "");
-  out += heading(level + 1, "Checks and warnings") + warnings_of(result);
-  if (const Table fit = fit_table(result); !fit.rows.empty())
-    out += heading(level + 1, "Fit") + table_of(fit, "");
-  for (const Section& section : result.sections) out += section_of(section, level + 1);
-  out += heading(level + 1, "Provenance") + table_of(provenance_table(result), "");
-  return out + "</article>\n";
-}
-
-std::string page_of(const std::string& title, const std::string& body) {
+std::string Page::finish(const std::string& title) const {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      escape_html(title) + "</title>\n<style>\n";
-  out += kPageStyle;
-  return out + "</style>\n</head>\n<body><div class=\"frame\"><main>\n" + body +
-         "</main></div></body>\n</html>\n";
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  out +=
+      "<title>" + escape_html(title) + "</title>\n<style>\n" + page_style() + "</style>\n</head>\n<body>\n";
+  out += "<button id=\"theme\" type=\"button\" hidden>Dark</button>\n<div class=\"frame\">\n";
+  out += "<nav aria-label=\"Contents\"><details id=\"contents\"><summary>Contents</summary><ol>\n" +
+         contents_ + "</ol></details></nav>\n";
+  out += "<main>\n" + body_ + "</main>\n</div>\n";
+  if (!data_.empty()) {
+    out += "<script type=\"application/json\" id=\"plot-data\">" + data_.json() + "</script>\n<script>";
+    out += kPlotLibrary;
+    out += "</script>\n";
+  }
+  out += "<script>\n";
+  out += kPageScript;
+  return out + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace
 
-std::string render_html(const Result& result) { return page_of(title_of(result), chapter_of(result, 1)); }
+std::string render_html(const Result& result) {
+  Page page;
+  page.chapter(result, 1);
+  return page.finish(title_of(result));
+}
 
 std::string render_html(const std::string& title, std::span<const Result> results) {
-  std::string body = heading(1, title);
-  for (const Result& result : results) body += chapter_of(result, 2);
-  return page_of(title, body);
+  Page page;
+  page.heading(1, title);
+  for (const Result& result : results) page.chapter(result, 2);
+  return page.finish(title);
 }
 
 }  // namespace ident

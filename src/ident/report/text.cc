@@ -36,13 +36,9 @@ std::string render_text(const Result& result, TextStyle style) {
   if (!result.verdict.empty()) out += wrap(result.verdict, style.width) + "\n";
   if (!result.parameters.empty()) {
     out += with_bold_head(text_table(short_parameter_table(result), style.width), style) + "\n";
-    bool any = false;
-    for (const Parameter& p : result.parameters) {
-      if (p.identifiable) continue;
-      any = true;
-      out += wrap("? " + p.name + " " + status_of(p), style.width);
-    }
-    if (any) out += "\n";
+    const std::vector<std::string> open_questions = not_identifiable(result);
+    for (const std::string& line : open_questions) out += wrap("? " + line, style.width);
+    if (!open_questions.empty()) out += "\n";
   }
   for (const Section& section : result.sections)
     for (const Table& table : section.tables) {

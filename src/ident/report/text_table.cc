@@ -2,31 +2,16 @@
 #include "ident/report/text_table.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace ident {
 namespace {
 
 constexpr int kGap = 2;  // blanks between columns
 
-bool is_number(std::string_view cell) {
-  const auto digit = cell.find_first_of("0123456789");
-  return digit != std::string_view::npos && cell.find_first_not_of("+-(") == digit;
-}
-
 /// Where the decimal point stands, or where it would.
 std::size_t point_of(std::string_view cell) {
   const auto end = cell.find_first_not_of("+-(0123456789");
   return end == std::string_view::npos ? cell.size() : end;
-}
-
-/// Pads numbers on the left so that their points stand under each other.
-void align_points(std::vector<std::string>& cells) {
-  std::size_t before = 0;
-  for (const std::string& cell : cells)
-    if (is_number(cell)) before = std::max(before, point_of(cell));
-  for (std::string& cell : cells)
-    if (is_number(cell)) cell.insert(0, before - point_of(cell), ' ');
 }
 
 std::string padded(const std::string& cell, int width) {
@@ -42,6 +27,19 @@ std::string without_trailing_blanks(std::string line) {
 
 int display_width(std::string_view text) {
   return static_cast<int>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+bool is_number(std::string_view cell) {
+  const auto digit = cell.find_first_of("0123456789");
+  return digit != std::string_view::npos && cell.find_first_not_of("+-(") == digit;
+}
+
+void align_points(std::vector<std::string>& cells) {
+  std::size_t before = 0;
+  for (const std::string& cell : cells)
+    if (is_number(cell)) before = std::max(before, point_of(cell));
+  for (std::string& cell : cells)
+    if (is_number(cell)) cell.insert(0, before - point_of(cell), ' ');
 }
 
 std::string wrap(std::string_view text, int width, int indent) {

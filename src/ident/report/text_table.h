@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ident/core/result.h"
 
@@ -14,8 +15,14 @@ int display_width(std::string_view text);
 /// Breaks a text at blanks into lines of at most `width` columns, each after `indent` blanks.
 std::string wrap(std::string_view text, int width, int indent = 0);
 
-/// A column in which every cell starts with a digit, sign or bracket is aligned on the decimal point.
-/// Cells of the last column are wrapped where the table would exceed `width`.
+/// True for what starts like a number: "-0.5 %", "(6.0 ± 0.1)e-6".
+bool is_number(std::string_view cell);
+
+/// Pads the numbers among the cells of a column on the left, so that their points stand under each other.
+void align_points(std::vector<std::string>& cells);
+
+/// Numbers in a column are aligned on the decimal point. Cells of the last column are wrapped where the table
+/// would exceed `width`.
 std::string text_table(const Table& table, int width);
 
 }  // namespace ident

@@ -1,0 +1,22 @@
+// Pictures of plots as SVG: xy plots, bars, bands and heat maps.
+#pragma once
+
+#include <string>
+
+#include "ident/core/result.h"
+
+namespace ident {
+
+/// The picture for a page with the style sheet. `id` is unique on the page.
+std::string plot_svg(const Plot& plot, const std::string& id);
+
+/// The picture as a file of its own, which carries its colours for light and dark.
+std::string standalone_svg(const Plot& plot);
+
+/// Heat map of `plot.cells`; used by `plot_svg`.
+std::string heat_map_svg(const Plot& plot, const std::string& style);
+
+/// A correlation matrix as a heat map.
+Plot correlation_plot(const Result& result);
+
+}  // namespace ident
