@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ident/core/format_number.h"
+#include "ident/core/version.h"
 
 namespace ident {
 namespace {
@@ -80,7 +81,8 @@ Table fit_table(const Result& result) {
 Table provenance_table(const Result& result) {
   Table table{.title = "Provenance", .columns = {"What", "Value"}, .rows = {}};
   if (!result.command_line.empty()) table.rows.push_back({"command", command_line_of(result)});
-  table.rows.push_back({"version", "ident " + (result.version.empty() ? IDENT_VERSION : result.version)});
+  table.rows.push_back(
+      {"version", "ident " + (result.version.empty() ? std::string(version()) : result.version)});
   if (result.seed) table.rows.push_back({"seed", std::to_string(*result.seed)});
   for (const InputFile& file : result.files) table.rows.push_back({file.path, "sha256 " + file.sha256});
   return table;

@@ -4,6 +4,8 @@
 #include <concepts>
 #include <type_traits>
 
+#include "ident/core/version.h"
+
 namespace ident {
 namespace {
 
@@ -163,7 +165,7 @@ void read(const Json& j, T& x) {
 Json stored_json(const Result& result) {
   Json j{{"schema", kSchema}};
   j.update(write(result));
-  if (result.version.empty()) j["version"] = IDENT_VERSION;
+  if (result.version.empty()) j["version"] = version();
   return j;
 }
 
