@@ -171,7 +171,11 @@ void write_case(const Case& c, int index, const std::string& folder) {
   for (std::size_t log = 0; log < c.flights.size(); ++log) {
     write_file(place / ("log" + std::to_string(log + 1) + ".csv"), log_csv(c, c.flights[log]));
   }
-  write_file(root / "truth" / (std::string(number.data()) + ".json"), truth_json(c, index).dump(1) + "\n");
+  const nlohmann::json truth = truth_json(c, index);
+  write_file(root / "truth" / (std::string(number.data()) + ".json"), truth.dump(1) + "\n");
+  std::string names;  // all that run.sh has to know of the truth
+  for (const auto& name : truth["exclude"]) names += (names.empty() ? "" : ",") + name.get<std::string>();
+  if (!names.empty()) write_file(root / "truth" / (std::string(number.data()) + ".exclude"), names + "\n");
 }
 
 }  // namespace withheld
