@@ -16,6 +16,7 @@ class YamlValue {
  public:
   YamlValue(std::string file, std::string path, YAML::Node node);
 
+  bool is_null() const { return node_.IsNull(); }
   bool is_map() const { return node_.IsMap(); }
   bool is_list() const { return node_.IsSequence(); }
   bool is_text() const { return node_.IsScalar(); }

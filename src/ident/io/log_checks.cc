@@ -1,0 +1,187 @@
+// What the numbers of a flight log say about its units and frames.
+#include "ident/io/log_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ident/core/error.h"
+
+namespace ident {
+namespace {
+
+constexpr double kHeldShare = 0.5;    // of the rows that repeat the row before: then it is no new sample
+constexpr double kSlowestLog = 0.5;   // s between rows; slower is a log in other units, or of no use
+constexpr double kLongGap = 10.0;     // times the usual step
+constexpr double kShortestGap = 0.1;  // s
+constexpr std::size_t kFewRows = 20;  // too few to judge
+
+std::optional<double> median(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return std::isnan(v); });
+  if (values.empty()) return std::nullopt;
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+bool sampled(std::span<const std::vector<double>> sensor, std::size_t row) {
+  return std::ranges::any_of(sensor, [&](const std::vector<double>& c) { return !std::isnan(c[row]); });
+}
+
+bool same(std::span<const std::vector<double>> sensor, std::size_t a, std::size_t b) {
+  return std::ranges::all_of(sensor, [&](const std::vector<double>& c) {
+    return c[a] == c[b] || (std::isnan(c[a]) && std::isnan(c[b]));
+  });
+}
+
+/// Rows in which a sensor holds a value.
+std::vector<std::size_t> rows_of(std::span<const std::vector<double>> sensor) {
+  std::vector<std::size_t> rows;
+  if (sensor.front().empty()) return rows;
+  for (std::size_t i = 0; i < sensor.front().size(); ++i)
+    if (sampled(sensor, i)) rows.push_back(i);
+  return rows;
+}
+
+double norm(std::span<const std::vector<double>> sensor, std::size_t row) {
+  double sum = 0.0;
+  for (const std::vector<double>& c : sensor) sum += c[row] * c[row];
+  return std::sqrt(sum);
+}
+
+void remove(Components sensor) {
+  for (std::vector<double>& c : sensor) c.clear();
+}
+
+/// Angle between two attitudes.
+double turn(const FlightLog& log, std::size_t a, std::size_t b) {
+  double dot = 0.0;
+  for (const std::vector<double>& c : log.q_WB) dot += c[a] * c[b];
+  return 2.0 * std::acos(std::min(1.0, std::abs(dot)));
+}
+
+}  // namespace
+
+void drop_constant(FlightLog& log, Components sensor, const std::string& name) {
+  const std::vector<std::size_t> rows = rows_of(sensor);
+  if (sensor.front().empty()) return;
+  if (rows.empty()) return remove(sensor);
+  if (rows.size() < kFewRows) return;
+  const bool constant =
+      std::ranges::all_of(rows, [&](std::size_t i) { return same(sensor, i, rows.front()); });
+  if (!constant) return;
+  remove(sensor);
+  log.warnings.push_back(
+      {"constant_signal", fmt::format("{}: {}: never changes; taken as not measured", log.file, name)});
+}
+
+void drop_held(FlightLog& log, Components sensor, const std::string& name) {
+  const std::vector<std::size_t> rows = rows_of(sensor);
+  if (rows.size() < kFewRows) return;
+  std::vector<std::size_t> held;
+  for (std::size_t k = 1; k < rows.size(); ++k)
+    if (same(sensor, rows[k], rows[k - 1])) held.push_back(rows[k]);
+  const double share = static_cast<double>(held.size()) / static_cast<double>(rows.size());
+  if (share <= kHeldShare) return;
+  for (const std::size_t i : held)
+    for (std::vector<double>& c : sensor) c[i] = kNaN;
+  log.warnings.push_back(
+      {"held_samples",
+       fmt::format("{}: {}: {:.0f} % of the rows only repeat the row before; they count as not "
+                   "sampled",
+                   log.file, name, 100.0 * share)});
+}
+
+void tell_rate(FlightLog& log, std::span<const std::vector<double>> sensor, const std::string& name) {
+  const std::vector<std::size_t> rows = rows_of(sensor);
+  if (rows.size() < 2) return;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(log.t[rows[k]] - log.t[rows[k - 1]]);
+  log.notices.push_back(fmt::format("{}: {} at {:.4g} Hz", log.file, name, 1.0 / *median(steps)));
+}
+
+void check_time(FlightLog& log, bool unit_stated) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < log.t.size(); ++i) steps.push_back(log.t[i] - log.t[i - 1]);
+  const std::optional<double> usual = median(steps);
+  if (!usual) throw DataError(log.file + ": t: the log holds a single row");
+  if (*usual > kSlowestLog && !unit_stated)
+    throw InputError(
+        log.file, 0, "t",
+        fmt::format("the usual step of t is {:.4g}: if that is not seconds, name the unit in the header, "
+                    "as in 't [ms]'",
+                    *usual));
+  const double limit = std::max(kShortestGap, kLongGap * *usual);
+  const auto gaps = std::ranges::count_if(steps, [&](double step) { return step > limit; });
+  if (gaps == 0) return;
+  const auto longest = std::ranges::max_element(steps);
+  log.warnings.push_back(
+      {"time_gap", fmt::format("{}: t: {} gaps; the longest is {:.3g} s at t = {:.6g} s", log.file, gaps,
+                               *longest, log.t[static_cast<std::size_t>(longest - steps.begin())])});
+}
+
+void check_specific_force(FlightLog& log, double gravity) {
+  const std::vector<std::size_t> rows = rows_of(log.f_B);
+  if (rows.size() < kFewRows) return;
+  std::vector<double> sizes;
+  for (const std::size_t i : rows) sizes.push_back(norm(log.f_B, i));
+  const double size = median(sizes).value_or(gravity);
+  const double down = median(log.f_B[2]).value_or(-gravity);
+  if (size > 0.7 && size < 1.4 && gravity > 5.0)
+    throw InputError(
+        log.file, 0, "ax, ay, az",
+        fmt::format("their size is {:.3g} mostly: that is in g; name the unit in the header, as in 'az [g]'",
+                    size));
+  if (size < 0.3 * gravity)
+    log.warnings.push_back(
+        {"gravity_missing",
+         fmt::format("{}: ax, ay, az: their size is {:.3g} m/s^2 mostly, far below gravity: an "
+                     "acceleration with gravity removed is no specific force",
+                     log.file, size)});
+  else if (down > 0.5 * gravity)
+    throw InputError(
+        log.file, 0, "az",
+        fmt::format("is {:+.3g} m/s^2 mostly, but at rest a specific force points up, {:.3g}: body axes "
+                    "that point left and up need a map with 'frames: {{body: flu}}'",
+                    down, -gravity));
+}
+
+void check_rates_against_attitude(const FlightLog& log) {
+  if (!log.has_rates() || !log.has_attitude()) return;
+  constexpr double kWindow = 0.1;  // s: long against the noise of the attitude, short against a turn
+  double by_attitude = 0.0, by_rates = 0.0, rate_sum = 0.0;
+  long rates = 0;
+  std::optional<std::size_t> start;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double rate = norm(log.w_B, i);
+    if (!std::isnan(rate)) rate_sum += rate, ++rates;
+    if (std::isnan(log.q_WB[0][i])) continue;
+    const double passed = start ? log.t[i] - log.t[*start] : 0.0;
+    if (start && passed < kWindow) continue;
+    if (start && passed < 3.0 * kWindow && rates > 0) {
+      by_attitude += turn(log, *start, i);
+      by_rates += rate_sum / static_cast<double>(rates) * passed;
+    }
+    start = i;
+    rate_sum = 0.0, rates = 0;
+  }
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const double ratio = by_attitude > 0.0 ? by_rates / by_attitude : 1.0;
+  const bool enough = by_attitude > 2.0;  // rad in all
+  if (enough && ratio > 0.6 * kDegrees && ratio < 1.7 * kDegrees)
+    throw InputError(
+        log.file, 0, "p, q, r",
+        fmt::format("are {:.3g} times faster than the attitude turns: they are in deg/s; name the unit in "
+                    "the header, as in 'p [deg/s]'",
+                    ratio));
+  if (enough && ratio * kDegrees > 0.6 && ratio * kDegrees < 1.7)
+    throw InputError(
+        log.file, 0, "phi, theta, psi",
+        fmt::format("turn {:.3g} times faster than the rates say: they are in degrees; name the unit in "
+                    "the header, as in 'phi [deg]'",
+                    1.0 / ratio));
+}
+
+}  // namespace ident

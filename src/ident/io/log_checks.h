@@ -1,0 +1,35 @@
+// Checks of a flight log that was read: what its numbers say about units, frames and rates.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ident/data/flight_log.h"
+
+namespace ident {
+
+/// Components of one sensor.
+using Components = std::span<std::vector<double>>;
+
+/// Removes a sensor whose components never change (warning `constant_signal`) or are all empty.
+void drop_constant(FlightLog& log, Components sensor, const std::string& name);
+
+/// Makes NaN what a log repeats between two samples of a slower sensor (warning `held_samples`).
+void drop_held(FlightLog& log, Components sensor, const std::string& name);
+
+/// Tells the rate of a sensor in a notice.
+void tell_rate(FlightLog& log, std::span<const std::vector<double>> sensor, const std::string& name);
+
+/// Throws InputError where time is in another unit than s (`unit_stated`: the user said which); warns of
+/// gaps.
+void check_time(FlightLog& log, bool unit_stated);
+
+/// Throws InputError where specific force is in g, or where its sign belongs to another body frame; warns
+/// where gravity is missing from it.
+void check_specific_force(FlightLog& log, double gravity);
+
+/// Throws InputError where rates disagree with the attitude by the factor of degrees to radians.
+void check_rates_against_attitude(const FlightLog& log);
+
+}  // namespace ident
