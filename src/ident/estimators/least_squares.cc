@@ -32,6 +32,15 @@ class DenseCost : public ceres::CostFunction {
     return z;
   }
 
+  /// Are residuals and Jacobian finite there?
+  bool possible(const Eigen::VectorXd& z) const {
+    Eigen::VectorXd r(problem_.residuals);
+    RowMajor J(problem_.residuals, n_);
+    const double* unknowns = z.data();
+    double* jacobian = J.data();
+    return Evaluate(&unknowns, r.data(), &jacobian);
+  }
+
   bool Evaluate(double const* const* z, double* residuals, double** jacobians) const override {
     const Eigen::VectorXd x = physical(z[0]);
     const bool with_jacobian = jacobians && jacobians[0];
@@ -82,7 +91,7 @@ Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& star
   Minimum best{start, std::numeric_limits<double>::infinity()};
   for (const double radius : {1e4, 10.0, 1e-3}) {
     Eigen::VectorXd z = cost.unconstrained(start);
-    if (!z.allFinite()) break;
+    if (!z.allFinite() || !cost.possible(z)) break;  // Ceres would complain on the standard error stream
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem minimisation(ownership);

@@ -38,13 +38,14 @@ struct NoiseGroup {
   std::string name;
   std::optional<double> known_sigma = {};  ///< standard deviation, when it is known (a prior, say)
   bool in_time_order = true;               ///< look for autocorrelation
-  bool may_have_outliers = true;
+  bool may_have_outliers = true;           ///< false for priors
 };
 
 /// Consecutive residuals [begin, end) from one sensor in one recording, in time order.
 struct ResidualSeries {
   Eigen::Index begin = 0, end = 0;
-  int group = 0;  ///< index into the noise groups
+  int group = 0;                  ///< index into the noise groups
+  bool may_have_outliers = true;  ///< false where too few rows would tell which of them is the odd one
 };
 
 struct LeastSquaresProblem {

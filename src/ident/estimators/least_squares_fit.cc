@@ -18,6 +18,15 @@ constexpr int kMostRounds = 12;
 
 double square(double v) { return v * v; }
 
+/// Deviation of a row from what the other rows say, against the noise of the other rows.
+double deletion_t(double error, double leverage, double dof, bool is_out_already) {
+  if (is_out_already) return error / std::sqrt(1.0 + leverage);
+  const double inner = error / std::sqrt(std::max(1.0 - leverage, 1e-6));
+  if (!std::isfinite(dof)) return inner;
+  const double left = (dof - square(inner)) / std::max(dof - 1.0, 1.0);
+  return left > 0.0 ? inner / std::sqrt(left) : std::numeric_limits<double>::infinity();
+}
+
 /// The problem with its defaults filled in and checked.
 LeastSquaresProblem completed(LeastSquaresProblem problem) {
   if (problem.groups.empty()) problem.groups.push_back({});
@@ -43,6 +52,7 @@ class Fitter {
     for (int round = 0; round < kMostRounds; ++round) {
       const LinearisedRows rows = linearised();
       noise_ = estimate_noise(problem_, options_.max_colour_order, rows, noise_);
+      for (std::size_t g = 0; g < noise_.size(); ++g) noise_[g].sigma = std::max(noise_[g].sigma, floor_[g]);
       const bool changed = options_.robust && find_outliers(rows);
       const Eigen::VectorXd before = x_;
       // With one white group and no outliers the weights cannot change the solution.
@@ -88,6 +98,18 @@ class Fitter {
     }
   }
 
+  /// Rounding error of the predictions: noise is never taken to be less.
+  void set_floors(const Eigen::VectorXd& x) {
+    Eigen::MatrixXd J;
+    const Eigen::VectorXd r = residuals(x, &J);
+    const Eigen::VectorXd size = J.cwiseAbs() * x.cwiseAbs() + r.cwiseAbs();
+    for (std::size_t g = 0; g < noise_.size(); ++g) {
+      std::vector<double> values;
+      for (const Eigen::Index i : rows_of(g)) values.push_back(size(i));
+      floor_[g] = std::max(1e-14 * root_mean_square(values), 1e-100);
+    }
+  }
+
   /// sign(r) sqrt(2 rho(r)) with the pseudo-Huber rho: quadratic near zero, linear for outliers.
   void shape(Eigen::VectorXd& r, Eigen::MatrixXd* J) const {
     for (const ResidualSeries& s : problem_.series) {
@@ -96,7 +118,7 @@ class Fitter {
       for (Eigen::Index i = s.begin; i < s.end; ++i) {
         const double u = r(i) / noise_[g].sigma;
         double value = u, slope = 1.0;
-        if (options_.robust && problem_.groups[g].may_have_outliers) {
+        if (options_.robust && problem_.groups[g].may_have_outliers && s.may_have_outliers) {
           const double root = std::sqrt(1.0 + square(u / k));
           value = u * std::sqrt(2.0 / (root + 1.0));
           slope = u == 0.0 ? 1.0 : u / (value * root);
@@ -118,7 +140,7 @@ class Fitter {
         std::ranges::find_if(starts, [&](const Eigen::VectorXd& x) { return residuals(x).allFinite(); });
     if (usable == starts.end()) throw DataError("no start of the fit gives finite residuals");
     set_levels(residuals(*usable));
-    for (std::size_t g = 0; g < noise_.size(); ++g) floor_[g] = std::max(1e-12 * noise_[g].sigma, 1e-100);
+    set_floors(*usable);
     const RowTransform robust = [&](Eigen::VectorXd& r, Eigen::MatrixXd* J) { shape(r, J); };
     Minimum best{*usable, std::numeric_limits<double>::infinity()};
     for (const Eigen::VectorXd& x : starts) {
@@ -180,24 +202,18 @@ class Fitter {
     const Eigen::VectorXd forwards = prediction_errors(rows, false),
                           backwards = prediction_errors(rows, true);
     const double used = static_cast<double>(std::ranges::count(rejected_, false));
-    const double dof = std::max(1.0, used - static_cast<double>(rows.J.cols()));
-    const double cut = std::max(3.0, t_quantile(1.0 - 0.025 / static_cast<double>(rejected_.size()), dof));
+    const double all = static_cast<double>(rejected_.size());
     bool changed = false;
     for (const ResidualSeries& s : problem_.series) {
       const NoiseGroup& group = problem_.groups[static_cast<std::size_t>(s.group)];
-      if (!group.may_have_outliers || group.known_sigma) continue;
+      if (!group.may_have_outliers || !s.may_have_outliers) continue;
+      const double dof = group.known_sigma ? std::numeric_limits<double>::infinity()
+                                           : std::max(1.0, used - static_cast<double>(rows.J.cols()));
+      const double cut = std::max(3.0, t_quantile(1.0 - 0.025 / all, dof));
       for (Eigen::Index i = s.begin; i < s.end; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const double error = std::min(std::fabs(forwards(i)), std::fabs(backwards(i)));
-        const double h = leverage(i);
-        // Deviation against the noise without this row: externally studentised.
-        double t = error / std::sqrt(1.0 + h);
-        if (!rejected_[k]) {
-          const double inner = error / std::sqrt(std::max(1.0 - h, 1e-6));
-          const double left = (dof - square(inner)) / std::max(dof - 1.0, 1.0);
-          t = left > 0.0 ? inner / std::sqrt(left) : std::numeric_limits<double>::infinity();
-        }
-        const bool outlier = t > cut;
+        const bool outlier = deletion_t(error, leverage(i), dof, rejected_[k]) > cut;
         changed = changed || outlier != rejected_[k];
         rejected_[k] = outlier;
       }
