@@ -33,6 +33,8 @@ struct Context {
   std::vector<std::string> notices;
   /// Files to write. They appear together after the command has succeeded, or not at all.
   Outputs outputs;
+  /// In a folder with `ident.yaml`: whether the result belongs to that campaign, for `ident report`.
+  bool belongs_to_campaign = true;
 };
 
 /// A result and the exit status that goes with it (not `done` only where the finding itself is the status).

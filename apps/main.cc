@@ -3,6 +3,7 @@
 #include <new>
 
 #include "ident/core/version.h"
+#include "ident/report/report.h"
 #include "shell.h"
 
 namespace ident::app {
@@ -20,7 +21,9 @@ Registered add(CLI::App& program, const std::string& name, const std::string& su
   auto shared = std::make_shared<SharedOptions>();
   const Action action = declare(*cli);
   cli->add_flag("--json", shared->json, "print the result as JSON on standard output, nothing else");
-  cli->add_option("--report", shared->report, "write a report: .html, .md or .json")->type_name("FILE");
+  cli->add_option("--report", shared->report, "write a report: .html, .md or .json")
+      ->type_name("FILE")
+      ->each([](const std::string& path) { report_form(path); });  // refused before the work, not after
   return {cli, action, shared};
 }
 

@@ -1,38 +1,57 @@
-// `ident report`: the parameters of a vehicle with their uncertainty.
+// `ident report`: everything that a campaign found on one page, or the parameters of a vehicle file.
+#include "ident/report/report.h"
+
 #include "command.h"
+#include "ident/io/campaign.h"
 #include "ident/io/vehicle_file.h"
-#include "ident/model/parameters.h"
+#include "ident/report/campaign_report.h"
 
 namespace ident::app {
 namespace {
 
-Result parameters_of(const Vehicle& vehicle) {
-  Result result;
-  result.command = "report";
-  result.inputs = {vehicle.file};
-  result.warnings = vehicle.warnings;
-  for (const auto& [name, known] : vehicle.parameters) {
-    const double std = known.std.value_or(kNaN);
-    Parameter p;
-    p.name = name;
-    p.value = known.value;
-    p.std = std;
-    p.ci95 = {known.value - 1.96 * std, known.value + 1.96 * std};
-    p.unit = parameter_unit(name);
-    p.source = "prior";
-    result.parameters.push_back(p);
+struct Options {
+  std::string vehicle;
+  std::string output;
+};
+
+Result report_campaign(const Options& options, Context& context) {
+  const Campaign campaign = read_campaign();
+  const Vehicle vehicle = campaign_vehicle(campaign);
+  std::vector<Result> chapters = stored_results(".");
+  if (chapters.empty())
+    throw DataError(
+        "nothing to report yet: run `ident thrust`, `ident motor` or `ident flightlog --refine` first");
+  Result summary = campaign_summary(vehicle, chapters);
+  summary.inputs = {campaign.file, campaign.vehicle};
+  chapters.insert(chapters.begin(), summary);
+  const std::string title = vehicle.name.empty() ? "Campaign" : vehicle.name;
+  if (!options.output.empty()) {
+    context.outputs.add(options.output, render_as(report_form(options.output), title, chapters));
+  } else {
+    context.outputs.add("report.html", render_html(title, chapters));
+    context.outputs.add("report.md", render_markdown(title, chapters));
   }
-  return result;
+  context.notices.push_back("wrote " +
+                            (options.output.empty() ? "report.html and report.md" : options.output));
+  return summary;
 }
 
 }  // namespace
 
 Action report_command(CLI::App& cli) {
-  auto file = std::make_shared<std::string>();
-  cli.add_option("--vehicle", *file, "vehicle or parameter file")->type_name("FILE")->required();
-  examples(cli, {{"ident report --vehicle falcon.yaml", "the parameters as a table"},
-                 {"ident report --vehicle falcon.yaml --report falcon.html", "and as a page"}});
-  return [file](Context&) -> Outcome { return parameters_of(read_vehicle(*file)); };
+  auto options = std::make_shared<Options>();
+  cli.add_option("--output", options->output,
+                 "where to write: .html, .md or .json; report.html and report.md without it")
+      ->type_name("FILE");
+  cli.add_option("--vehicle", options->vehicle, "only list the parameters of a vehicle or parameter file")
+      ->type_name("FILE");
+  examples(cli, {{"ident report", "all results of the campaign in this folder, as report.html and report.md"},
+                 {"ident report --vehicle falcon.yaml", "the parameters of a file as a table"}});
+  return [options](Context& context) -> Outcome {
+    context.belongs_to_campaign = false;
+    if (!options->vehicle.empty()) return vehicle_summary(read_vehicle(options->vehicle));
+    return report_campaign(*options, context);
+  };
 }
 
 }  // namespace ident::app

@@ -9,6 +9,7 @@
 
 #include "ident/core/version.h"
 #include "ident/io/sha256.h"
+#include "ident/report/campaign_report.h"
 #include "ident/report/report.h"
 #include "shell.h"
 
@@ -49,9 +50,21 @@ std::string json_text(const Result& result) {
 }
 
 std::string report_content(const Result& result, const std::string& path) {
-  const std::string extension = fs::path(path).extension().string();
-  if (extension == ".json") return json_text(result);
-  return extension == ".md" ? render_markdown(result) : render_html(result);
+  const ReportForm form = report_form(path);
+  if (form == ReportForm::json) return json_text(result);
+  return form == ReportForm::markdown ? render_markdown(result) : render_html(result);
+}
+
+/// Keeps the result beside `ident.yaml`, where `ident report` finds it.
+void keep_in_campaign(const Result& result, Context& context) {
+  if (!context.belongs_to_campaign || !fs::exists("ident.yaml")) return;
+  const std::string path = stored_result_path(".", result);
+  std::error_code failed;
+  fs::create_directories(fs::path(path).parent_path(), failed);
+  if (failed)
+    context.notices.push_back("the result is not kept for `ident report`: " + failed.message());
+  else
+    context.outputs.add(path, stored_result_text(result));
 }
 
 void print(const std::string& text) {
@@ -66,6 +79,7 @@ ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& option
   Result& result = outcome.result;
   add_provenance(result, context, command_line);
   if (!options.report.empty()) context.outputs.add(options.report, report_content(result, options.report));
+  keep_in_campaign(result, context);
   const std::string text =
       options.json ? json_text(result) : render_text(result, {.colour = colour_wanted()});
   context.outputs.prepare();

@@ -17,6 +17,13 @@ std::string render_html(const std::string& title, std::span<const Result> result
 std::string render_markdown(const Result& result);
 std::string render_markdown(const std::string& title, std::span<const Result> results);
 
+/// The form that a file name asks for: .html, .md or .json. Throws UsageError on another ending.
+enum class ReportForm { html, markdown, json };
+ReportForm report_form(const std::string& path);
+
+/// The content of a report file. JSON holds everything, sections and plots included.
+std::string render_as(ReportForm form, const std::string& title, std::span<const Result> results);
+
 struct TextStyle {
   bool colour = false;  ///< ANSI colours; ask only for a terminal, and not under NO_COLOR
   int width = 80;       ///< columns

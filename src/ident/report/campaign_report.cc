@@ -1,0 +1,133 @@
+// Keeps and gathers the results of a campaign.
+#include "ident/report/campaign_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "ident/core/error.h"
+#include "ident/io/read_bytes.h"
+#include "ident/io/sha256.h"
+#include "ident/model/parameters.h"
+#include "ident/report/stored_result.h"
+
+namespace ident {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolder = ".ident";
+constexpr std::size_t kLargest = std::size_t{1} << 30;  // bytes of a stored result
+constexpr std::array<std::string_view, 7> kOrder{"thrust",    "motor", "inertia", "flightlog-refine",
+                                                 "flightlog", "slant", "check"};
+
+/// Command, with what makes two of its results worth keeping side by side.
+std::string name_of(const Result& result) {
+  const bool refined = std::ranges::count(result.command_line, "--refine") > 0;
+  return result.command + (refined ? "-refine" : "");
+}
+
+std::size_t place_in_order(const fs::path& file) {
+  return static_cast<std::size_t>(std::ranges::find(kOrder, file.stem().string()) - kOrder.begin());
+}
+
+Result read_stored_result(const fs::path& file) {
+  try {
+    return result_from_json(nlohmann::ordered_json::parse(read_bytes(file.string(), kLargest)));
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(file.string(), 0, "",
+                     "is not a stored result; run the command again, or remove the file");
+  }
+}
+
+void warn_of_changed_inputs(Result& result, const fs::path& folder) {
+  for (const InputFile& input : result.files) {
+    const std::string path = (folder / input.path).lexically_normal().string();
+    if (fs::is_regular_file(path) && sha256_of_file(path) == input.sha256) continue;
+    result.warn("stale_result", fmt::format("{} has changed since, or is gone: run `ident {}` again.",
+                                            input.path, result.command));
+  }
+}
+
+Parameter stated(const Vehicle& vehicle, const std::string& name) {
+  const Known& known = vehicle.parameters.at(name);
+  const double std = known.std.value_or(kNaN);
+  return {.name = name,
+          .value = known.value,
+          .std = std,
+          .ci95 = {known.value - 1.96 * std, known.value + 1.96 * std},
+          .unit = parameter_unit(name),
+          .source = "prior"};
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string stored_result_path(const std::string& folder, const Result& result) {
+  return (fs::path(folder) / kFolder / (name_of(result) + ".json")).lexically_normal().string();
+}
+
+std::string stored_result_text(const Result& result) {
+  // File names may hold bytes that are no UTF-8: replaced, not refused.
+  return stored_json(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::vector<Result> stored_results(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code no_folder;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / kFolder, no_folder))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::ranges::sort(files, {}, [](const fs::path& file) { return std::pair(place_in_order(file), file); });
+  std::vector<Result> results;
+  for (const fs::path& file : files) {
+    results.push_back(read_stored_result(file));
+    warn_of_changed_inputs(results.back(), folder);
+  }
+  return results;
+}
+
+Result vehicle_summary(const Vehicle& vehicle) {
+  Result summary;
+  summary.command = "report";
+  summary.inputs = {vehicle.file};
+  summary.warnings = vehicle.warnings;
+  for (const auto& [name, known] : vehicle.parameters) summary.parameters.push_back(stated(vehicle, name));
+  return summary;
+}
+
+Result campaign_summary(const Vehicle& vehicle, const std::vector<Result>& results) {
+  Result summary;
+  summary.command = "report";
+  summary.inputs = {vehicle.file};
+  summary.warnings = vehicle.warnings;
+  std::string commands;
+  for (const Result& result : results) {
+    commands += (commands.empty() ? "" : ", ") + result.command;
+    for (const Warning& warning : result.warnings)
+      summary.warn(warning.code, "ident " + result.command + ": " + warning.message);
+    for (const Parameter& found : result.parameters) {
+      const auto at = std::ranges::find(summary.parameters, found.name, &Parameter::name);
+      if (at == summary.parameters.end())
+        summary.parameters.push_back(found);
+      else if (found.identifiable || !at->identifiable)
+        *at = found;
+    }
+  }
+  const auto unknown = std::ranges::count(summary.parameters, false, &Parameter::identifiable);
+  const std::size_t found = summary.parameters.size();
+  for (const auto& [name, known] : vehicle.parameters)
+    if (summary.find(name) == nullptr) summary.parameters.push_back(stated(vehicle, name));
+  summary.verdict =
+      fmt::format("{} of {}: {}. {} of {} were identified, with {} to look at.",
+                  counted(results.size(), "result"), vehicle.name.empty() ? "the vehicle" : vehicle.name,
+                  commands.empty() ? "none yet" : commands, found - static_cast<std::size_t>(unknown),
+                  counted(found, "parameter"), counted(summary.warnings.size(), "warning"));
+  return summary;
+}
+
+}  // namespace ident
