@@ -35,7 +35,9 @@ std::size_t distance(const std::string& a, const std::string& b) {
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
   if (word.empty() || word.size() > kLongestWord) return {};
   const std::string wanted = lower(word);
-  std::size_t best = 1 + std::max<std::size_t>(1, wanted.size() / 3);
+  // A third of the letters may be wrong, one in a short word, none where that would be half of it.
+  const std::size_t allowed = wanted.size() < 3 ? 0 : std::max<std::size_t>(1, wanted.size() / 3);
+  std::size_t best = allowed + 1;
   std::string found;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > kLongestWord) continue;

@@ -102,14 +102,14 @@ void tell_rate(FlightLog& log, std::span<const std::vector<double>> sensor, cons
   log.notices.push_back(fmt::format("{}: {} at {:.4g} Hz", log.file, name, 1.0 / *median(steps)));
 }
 
-void check_time(FlightLog& log, bool unit_stated) {
+void check_time(FlightLog& log, long header_line, bool unit_stated) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < log.t.size(); ++i) steps.push_back(log.t[i] - log.t[i - 1]);
   const std::optional<double> usual = median(steps);
   if (!usual) throw DataError(log.file + ": t: the log holds a single row");
   if (*usual > kSlowestLog && !unit_stated)
     throw InputError(
-        log.file, 0, "t",
+        log.file, header_line, "t",
         fmt::format("the usual step of t is {:.4g}: if that is not seconds, name the unit in the header, "
                     "as in 't [ms]'",
                     *usual));
@@ -122,7 +122,7 @@ void check_time(FlightLog& log, bool unit_stated) {
                                *longest, log.t[static_cast<std::size_t>(longest - steps.begin())])});
 }
 
-void check_specific_force(FlightLog& log, double gravity) {
+void check_specific_force(FlightLog& log, long header_line, double gravity) {
   const std::vector<std::size_t> rows = rows_of(log.f_B);
   if (rows.size() < kFewRows) return;
   std::vector<double> sizes;
@@ -131,7 +131,7 @@ void check_specific_force(FlightLog& log, double gravity) {
   const double down = median(log.f_B[2]).value_or(-gravity);
   if (size > 0.7 && size < 1.4 && gravity > 5.0)
     throw InputError(
-        log.file, 0, "ax, ay, az",
+        log.file, header_line, "ax, ay, az",
         fmt::format("their size is {:.3g} mostly: that is in g; name the unit in the header, as in 'az [g]'",
                     size));
   if (size < 0.3 * gravity)
@@ -142,15 +142,16 @@ void check_specific_force(FlightLog& log, double gravity) {
                      log.file, size)});
   else if (down > 0.5 * gravity)
     throw InputError(
-        log.file, 0, "az",
+        log.file, header_line, "az",
         fmt::format("is {:+.3g} m/s^2 mostly, but at rest a specific force points up, {:.3g}: body axes "
                     "that point left and up need a map with 'frames: {{body: flu}}'",
                     down, -gravity));
 }
 
-void check_rates_against_attitude(const FlightLog& log) {
+void check_rates_against_attitude(const FlightLog& log, long header_line) {
   if (!log.has_rates() || !log.has_attitude()) return;
-  constexpr double kWindow = 0.1;  // s: long against the noise of the attitude, short against a turn
+  constexpr double kWindow = 0.02;  // s: short against a turn, even of angles that are taken for radians
+  constexpr double kTurning = 0.1;  // rad/s: below it noise tells nothing
   double by_attitude = 0.0, by_rates = 0.0, rate_sum = 0.0;
   long rates = 0;
   std::optional<std::size_t> start;
@@ -160,7 +161,8 @@ void check_rates_against_attitude(const FlightLog& log) {
     if (std::isnan(log.q_WB[0][i])) continue;
     const double passed = start ? log.t[i] - log.t[*start] : 0.0;
     if (start && passed < kWindow) continue;
-    if (start && passed < 3.0 * kWindow && rates > 0) {
+    const bool turning = start && turn(log, *start, i) > kTurning * passed;
+    if (turning && passed < 0.2 && rates > 0) {
       by_attitude += turn(log, *start, i);
       by_rates += rate_sum / static_cast<double>(rates) * passed;
     }
@@ -169,16 +171,16 @@ void check_rates_against_attitude(const FlightLog& log) {
   }
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   const double ratio = by_attitude > 0.0 ? by_rates / by_attitude : 1.0;
-  const bool enough = by_attitude > 2.0;  // rad in all
+  const bool enough = by_attitude > 0.5;  // rad in all
   if (enough && ratio > 0.6 * kDegrees && ratio < 1.7 * kDegrees)
     throw InputError(
-        log.file, 0, "p, q, r",
+        log.file, header_line, "p, q, r",
         fmt::format("are {:.3g} times faster than the attitude turns: they are in deg/s; name the unit in "
                     "the header, as in 'p [deg/s]'",
                     ratio));
   if (enough && ratio * kDegrees > 0.6 && ratio * kDegrees < 1.7)
     throw InputError(
-        log.file, 0, "phi, theta, psi",
+        log.file, header_line, "phi, theta, psi",
         fmt::format("turn {:.3g} times faster than the rates say: they are in degrees; name the unit in "
                     "the header, as in 'phi [deg]'",
                     1.0 / ratio));

@@ -23,13 +23,13 @@ void tell_rate(FlightLog& log, std::span<const std::vector<double>> sensor, cons
 
 /// Throws InputError where time is in another unit than s (`unit_stated`: the user said which); warns of
 /// gaps.
-void check_time(FlightLog& log, bool unit_stated);
+void check_time(FlightLog& log, long header_line, bool unit_stated);
 
 /// Throws InputError where specific force is in g, or where its sign belongs to another body frame; warns
 /// where gravity is missing from it.
-void check_specific_force(FlightLog& log, double gravity);
+void check_specific_force(FlightLog& log, long header_line, double gravity);
 
 /// Throws InputError where rates disagree with the attitude by the factor of degrees to radians.
-void check_rates_against_attitude(const FlightLog& log);
+void check_rates_against_attitude(const FlightLog& log, long header_line);
 
 }  // namespace ident

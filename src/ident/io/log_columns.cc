@@ -21,6 +21,7 @@ class Chooser {
       : path_(path), csv_(csv), vehicle_(vehicle), map_(map) {}
 
   LogColumns run() {
+    out_.header_line = csv_.header_line();
     choose_mapped();
     choose_by_name();
     count_rotors();
@@ -112,13 +113,16 @@ class Chooser {
     if (n == 0) return 0;
     if (rotors > 0 && n != rotors)
       fail(fmt::format("{}1..{}{}", prefix, prefix, n),
-           fmt::format("the log has {} of these columns, but the vehicle {} has {} rotors", n,
-                       vehicle_.file.empty() ? vehicle_.name : vehicle_.file, rotors));
+           fmt::format("the log has {} of these columns, but {} has {} rotors", n, vehicle_title(), rotors));
     for (int i = 1; i <= n; ++i)
       if (!out_.has(fmt::format("{}{}", prefix, i)))
         fail(fmt::format("{}{}", prefix, i),
              fmt::format("the column is missing; the file has: {}", column_list(csv_.header())));
     return n;
+  }
+
+  std::string vehicle_title() const {
+    return "the vehicle file " + (vehicle_.file.empty() ? "of " + vehicle_.name : vehicle_.file);
   }
 
   void count_rotors() {
@@ -127,8 +131,7 @@ class Chooser {
     out_.speeds = count("omega");
     if (out_.pulses == 0 || out_.commands > 0) return;
     if (!vehicle_.command)
-      fail("u1", fmt::format("pulse widths need 'command: {{min: .., max: ..}}' in the vehicle file {}",
-                             vehicle_.file));
+      fail("u1", fmt::format("pulse widths need 'command: {{min: .., max: ..}}' in {}", vehicle_title()));
   }
 
   void expect_something_to_work_on() const {

@@ -16,6 +16,7 @@ struct LogColumns {
   std::vector<std::string> notices;
   int commands = 0, pulses = 0, speeds = 0;  ///< how many deltaN, uN, omegaN there are
   bool time_unit_stated = false;
+  long header_line = 0;
 
   bool has(const std::string& name) const;
 };

@@ -88,8 +88,10 @@ LogMap read_log_map(const std::string& path) {
     if (frames.has("body")) map.body = read_frame(frames.at("body"), &body_frame, body_frame_names());
     if (frames.has("world")) map.world = read_frame(frames.at("world"), &world_frame, world_frame_names());
   }
-  if (file.has("windows"))
+  if (file.has("windows")) {
+    map.windows_line = file.at("windows").line();
     for (const YamlValue& window : file.at("windows").list()) map.windows.push_back(read_window(window));
+  }
   return map;
 }
 

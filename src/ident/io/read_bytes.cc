@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -38,7 +39,8 @@ void refuse_no_text(const std::string& path, std::string_view first) {
     refuse("is compressed: unpack it first");
   if (starts_with_any(first, {std::string_view("\x55\x4c\x6f\x67\x01\x12\x35", 7), "\xA3\x95", "\x89MCAP"}))
     refuse("is a binary flight log, a format that is not read: convert it to CSV first");
-  if (first.find('\0') != std::string_view::npos) refuse("holds NUL bytes: a binary file or UTF-16, no text");
+  if (first.substr(0, first.find('\n')).find('\0') != std::string_view::npos)
+    refuse("holds NUL bytes: a binary file or UTF-16, no text");
 }
 
 std::string read_bytes(const std::string& path, std::size_t limit) {
@@ -55,6 +57,9 @@ std::string read_bytes(const std::string& path, std::size_t limit) {
   }
   if (std::ferror(file.get())) throw InputError(path, 0, "", "cannot be read");
   refuse_no_text(path, bytes);
+  if (const std::size_t nul = bytes.find('\0'); nul != std::string::npos)
+    throw InputError(path, 1 + std::count(bytes.begin(), bytes.begin() + static_cast<long>(nul), '\n'), "",
+                     "holds a NUL byte: a binary file");
   if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
   return bytes;
 }

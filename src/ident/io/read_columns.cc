@@ -27,6 +27,10 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+std::string_view hint(std::string_view cell) {
+  return looks_like_number(cell) ? " here (a decimal comma, but the file's decimal mark is a point?)" : "";
+}
+
 class Loop {
  public:
   Loop(const std::string& path, CsvReader& csv, const std::vector<ChosenColumn>& columns,
@@ -99,7 +103,8 @@ class Loop {
   }
 
   void refuse_or_drop(std::string_view cell, std::size_t i) {
-    const InputError error(path_, csv_.line(), header(i), fmt::format("'{}' is not a number", shown(cell)));
+    const InputError error(path_, csv_.line(), header(i),
+                           fmt::format("'{}' is not a number{}", shown(cell), hint(cell)));
     if (!csv_.at_unfinished_end()) throw error;
     csv_.drop_unfinished();
   }

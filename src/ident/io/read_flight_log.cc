@@ -56,7 +56,7 @@ class Builder {
   }
 
   FlightLog run() {
-    check_time(log_, columns_.time_unit_stated);
+    check_time(log_, columns_.header_line, columns_.time_unit_stated);
     take_commands();
     take_rotor_speeds();
     log_.w_B = take_vector({"p", "q", "r"});
@@ -187,8 +187,8 @@ class Builder {
   }
 
   void judge() {
-    check_specific_force(log_, vehicle_.g);
-    check_rates_against_attitude(log_);
+    check_specific_force(log_, columns_.header_line, vehicle_.g);
+    check_rates_against_attitude(log_, columns_.header_line);
     const bool moves =
         log_.has_rates() || log_.has_specific_force() || log_.has_attitude() || log_.has_velocity();
     if (!moves)
@@ -208,7 +208,7 @@ class Builder {
     for (const auto& [from, to] : map_.windows) {
       const auto rows = std::ranges::count_if(log_.t, [&](double t) { return t >= from && t <= to; });
       if (rows < 2)
-        throw InputError(map_.file, 0, "windows",
+        throw InputError(map_.file, map_.windows_line, "windows",
                          fmt::format("[{}, {}] holds {} rows of {}, which runs from {:.6g} to {:.6g} s", from,
                                      to, rows, log_.file, log_.t.front(), log_.t.back()));
     }

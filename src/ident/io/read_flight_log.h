@@ -31,6 +31,7 @@ struct LogMap {
   BodyFrame body = BodyFrame::frd;
   WorldFrame world = WorldFrame::ned;
   std::vector<std::array<double, 2>> windows;  ///< s, of the log's own clock
+  long windows_line = 0;
 };
 
 /// Reads a map (YAML: columns, frames, windows). Throws InputError.

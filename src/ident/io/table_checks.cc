@@ -31,7 +31,7 @@ std::string suggestion(const std::vector<std::string>& header, const std::string
   const std::string near = nearest_word(name, keys);
   const auto at = std::ranges::find(keys, near);
   if (near.empty()) return "";
-  return fmt::format("; is it '{}'?", header[static_cast<std::size_t>(at - keys.begin())]);
+  return fmt::format(" (is it '{}'?)", header[static_cast<std::size_t>(at - keys.begin())]);
 }
 
 bool is_empty(const Column& column) {

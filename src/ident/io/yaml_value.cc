@@ -2,6 +2,7 @@
 #include "ident/io/yaml_value.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,8 @@ constexpr std::size_t kLargestFile = 16u << 20;
 std::vector<YAML::Node> documents(const std::string& path, const std::string& text) {
   try {
     return YAML::LoadAll(text);
+  } catch (const YAML::DeepRecursion& error) {
+    throw InputError(path, error.mark.line + 1, "", "is nested too deeply");
   } catch (const YAML::Exception& error) {
     throw InputError(path, error.mark.line + 1, "", "is not valid YAML: " + error.msg);
   }
