@@ -33,64 +33,74 @@ struct Dual {
     return true;
   }
 
-  Dual& operator+=(const Dual& b) {
+  [[gnu::always_inline]] Dual& operator+=(const Dual& b) {
     v += b.v;
     for (int k = 0; k < K; ++k) d[k] += b.d[k];
     return *this;
   }
-  Dual& operator-=(const Dual& b) {
+  [[gnu::always_inline]] Dual& operator-=(const Dual& b) {
     v -= b.v;
     for (int k = 0; k < K; ++k) d[k] -= b.d[k];
     return *this;
   }
-  Dual& operator*=(const Dual& b) { return *this = *this * b; }
-  Dual& operator/=(const Dual& b) { return *this = *this / b; }
+  [[gnu::always_inline]] Dual& operator*=(const Dual& b) { return *this = *this * b; }
+  [[gnu::always_inline]] Dual& operator/=(const Dual& b) { return *this = *this / b; }
 
   /// f(a) with derivative `slope`.
-  static Dual chain(double f, double slope, const Dual& a) {
+  [[gnu::always_inline]] static Dual chain(double f, double slope, const Dual& a) {
     Dual r{Uninitialised{}};
     r.v = f;
     for (int k = 0; k < K; ++k) r.d[k] = slope * a.d[k];
     return r;
   }
 
-  friend Dual operator+(const Dual& a, const Dual& b) {
+  [[gnu::always_inline]] friend Dual operator+(const Dual& a, const Dual& b) {
     Dual r{Uninitialised{}};
     r.v = a.v + b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + b.d[k];
     return r;
   }
-  friend Dual operator-(const Dual& a, const Dual& b) {
+  [[gnu::always_inline]] friend Dual operator-(const Dual& a, const Dual& b) {
     Dual r{Uninitialised{}};
     r.v = a.v - b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.d[k] - b.d[k];
     return r;
   }
-  friend Dual operator*(const Dual& a, const Dual& b) {
+  [[gnu::always_inline]] friend Dual operator*(const Dual& a, const Dual& b) {
     Dual r{Uninitialised{}};
     r.v = a.v * b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.v * b.d[k] + b.v * a.d[k];
     return r;
   }
-  friend Dual operator/(const Dual& a, const Dual& b) {
+  [[gnu::always_inline]] friend Dual operator/(const Dual& a, const Dual& b) {
     Dual r{Uninitialised{}};
     const double inverse = 1.0 / b.v;
     r.v = a.v * inverse;
     for (int k = 0; k < K; ++k) r.d[k] = (a.d[k] - r.v * b.d[k]) * inverse;
     return r;
   }
-  friend Dual operator-(const Dual& a) { return chain(-a.v, -1.0, a); }
-  friend Dual operator+(const Dual& a, double b) { return shifted(a, b); }
-  friend Dual operator+(double a, const Dual& b) { return shifted(b, a); }
-  friend Dual operator-(const Dual& a, double b) { return shifted(a, -b); }
-  friend Dual operator-(double a, const Dual& b) { return chain(a - b.v, -1.0, b); }
-  friend Dual operator*(const Dual& a, double b) { return chain(a.v * b, b, a); }
-  friend Dual operator*(double a, const Dual& b) { return chain(a * b.v, a, b); }
-  friend Dual operator/(const Dual& a, double b) { return chain(a.v / b, 1.0 / b, a); }
-  friend Dual operator/(double a, const Dual& b) { return chain(a / b.v, -a / (b.v * b.v), b); }
+  [[gnu::always_inline]] friend Dual operator-(const Dual& a) { return chain(-a.v, -1.0, a); }
+  [[gnu::always_inline]] friend Dual operator+(const Dual& a, double b) { return shifted(a, b); }
+  [[gnu::always_inline]] friend Dual operator+(double a, const Dual& b) { return shifted(b, a); }
+  [[gnu::always_inline]] friend Dual operator-(const Dual& a, double b) { return shifted(a, -b); }
+  [[gnu::always_inline]] friend Dual operator-(double a, const Dual& b) { return chain(a - b.v, -1.0, b); }
+  [[gnu::always_inline]] friend Dual operator*(const Dual& a, double b) { return chain(a.v * b, b, a); }
+  [[gnu::always_inline]] friend Dual operator*(double a, const Dual& b) { return chain(a * b.v, a, b); }
+  [[gnu::always_inline]] friend Dual operator/(const Dual& a, double b) { return chain(a.v / b, 1.0 / b, a); }
+  [[gnu::always_inline]] friend Dual operator/(double a, const Dual& b) {
+    return chain(a / b.v, -a / (b.v * b.v), b);
+  }
   friend bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
   friend bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
   friend bool operator==(const Dual& a, const Dual& b) { return a.v == b.v; }
+
+  /// a + h b for a constant h: one pass over the derivatives.
+  [[gnu::always_inline]] friend Dual sum(const Dual& a, double h, const Dual& b) {
+    Dual r{Uninitialised{}};
+    r.v = a.v + h * b.v;
+    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + h * b.d[k];
+    return r;
+  }
 
   friend Dual sqrt(const Dual& a) {
     const double root = std::sqrt(a.v);
@@ -107,7 +117,7 @@ struct Dual {
  private:
   struct Uninitialised {};
   explicit Dual(Uninitialised) {}
-  static Dual shifted(const Dual& a, double b) {
+  [[gnu::always_inline]] static Dual shifted(const Dual& a, double b) {
     Dual r = a;
     r.v += b;
     return r;

@@ -25,15 +25,35 @@ double value(const S& x) {
     return x.v;
 }
 
+/// Is a scalar's derivative zero in every direction?
+template <class S>
+bool is_constant(const S& x) {
+  if constexpr (std::is_arithmetic_v<S>)
+    return true;
+  else if constexpr (requires { x.a; })
+    return x.v.isZero(0);
+  else
+    return x.is_constant();
+}
+
 /// Is a scalar zero together with all its derivatives? Then what it multiplies need not be computed.
 template <class S>
 bool is_identically_zero(const S& x) {
-  if constexpr (std::is_arithmetic_v<S>)
-    return x == 0;
-  else if constexpr (requires { x.a; })
-    return x.a == 0 && x.v.isZero(0);
-  else
-    return x.v == 0 && x.is_constant();
+  return value(x) == 0 && is_constant(x);
+}
+
+/// a + h b, the step of every integrator.
+inline double sum(double a, double h, double b) { return a + h * b; }
+template <class S>
+S sum(const S& a, double h, const S& b) {
+  return a + h * b;
+}
+
+template <class S, int N>
+Eigen::Matrix<S, N, 1> sum(const Eigen::Matrix<S, N, 1>& a, double h, const Eigen::Matrix<S, N, 1>& b) {
+  Eigen::Matrix<S, N, 1> r;
+  for (int i = 0; i < N; ++i) r[i] = sum(a[i], h, b[i]);
+  return r;
 }
 
 /// Length of a vector, rounded off below `floor` so that its derivative is finite at zero.

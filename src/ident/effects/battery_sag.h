@@ -14,7 +14,7 @@ namespace ident {
 struct BatterySag {
   static constexpr EffectInfo info{
       .name = "battery_sag",
-      .touches = 0,
+      .touches = kTouchGain,
       .equation = "Omega_steady *= (vbat/v0)^n (1 - rate t)",
       .looks_like =
           "slow drift of the thrust per command, and dips with collective; only where rotor speed is not "

@@ -68,6 +68,31 @@ class DenseCost : public ceres::CostFunction {
   Eigen::Index n_;
 };
 
+/// A SteppedProblem as one block.
+class SteppedCost : public ceres::CostFunction {
+ public:
+  SteppedCost(const SteppedProblem& problem, Eigen::Index n) : problem_(problem), n_(n) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
+    set_num_residuals(static_cast<int>(problem.residuals));
+  }
+
+  bool Evaluate(double const* const* u, double* residuals, double** jacobians) const override {
+    const bool with_jacobian = jacobians && jacobians[0];
+    Eigen::VectorXd r(problem_.residuals);
+    Eigen::MatrixXd J;
+    if (with_jacobian) J.setZero(problem_.residuals, n_);
+    const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(u[0], n_);
+    if (!problem_.evaluate(at, r, with_jacobian ? &J : nullptr) || !r.allFinite() || !J.allFinite()) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = r;
+    if (with_jacobian) Eigen::Map<RowMajor>(jacobians[0], r.size(), n_) = J;
+    return true;
+  }
+
+ private:
+  const SteppedProblem& problem_;
+  Eigen::Index n_;
+};
+
 ceres::Solver::Options solver_options(Effort effort, double radius) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -102,6 +127,29 @@ Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& star
       best = {cost.physical(z.data()), summary.final_cost};
     if (effort != Effort::thorough) break;
   }
+  return best;
+}
+
+SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start) {
+  SteppedMinimum best{start};
+  SteppedCost cost(problem, start.size());
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem minimisation(ownership);
+  minimisation.AddResidualBlock(&cost, nullptr, best.u.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.initial_trust_region_radius = problem.initial_radius;
+  options.function_tolerance = problem.tolerance;
+  options.parameter_tolerance = problem.tolerance;
+  options.gradient_tolerance = 1e-14;
+  options.max_num_iterations = problem.max_steps;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &minimisation, &summary);
+  best.cost = summary.final_cost;
+  best.steps = static_cast<int>(summary.iterations.size()) - 1;
+  best.ok = summary.termination_type != ceres::FAILURE;
   return best;
 }
 

@@ -23,4 +23,23 @@ struct Minimum {
 Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
                  const RowTransform& transform, Effort effort);
 
+/// Residuals that keep a state of their own between steps (the flight smoother): evaluated once per step,
+/// with J asked for again only where the step was accepted.
+struct SteppedProblem {
+  Eigen::Index residuals = 0;
+  ResidualFunction evaluate;  ///< in unconstrained coordinates; `J` null for a trial step
+  double tolerance = 1e-9;    ///< relative change of the cost, and of the unknowns
+  int max_steps = 30;
+  double initial_radius = 1e4;
+};
+
+struct SteppedMinimum {
+  Eigen::VectorXd u;
+  double cost = 0.0;
+  int steps = 0;
+  bool ok = false;
+};
+
+SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
+
 }  // namespace ident

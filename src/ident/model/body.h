@@ -69,6 +69,19 @@ class Body {
     }
     const double kT = value(p[param::kT]), n = static_cast<double>(vehicle.rotors.size());
     Omega_hover_ = kT > 0 ? std::sqrt(value(p[param::m]) * vehicle.g / (n * kT)) : 1.0;
+    m_inverse_ = 1.0 / m_;
+    diagonal_ =
+        is_identically_zero(J_(0, 1)) && is_identically_zero(J_(0, 2)) && is_identically_zero(J_(1, 2));
+    plain_ = !linear_drag_ && (effects.touches() & kTouchFlow) == 0;
+    for (std::size_t k = 0; k < a_B_.size(); ++k) {
+      const Rotor& rotor = vehicle.rotors[k];
+      for (int i = 0; i < 3; ++i) plain_ = plain_ && is_constant(a_B_[k][i]);
+      const Eigen::Vector3d a(value(a_B_[k][0]), value(a_B_[k][1]), value(a_B_[k][2]));
+      const Eigen::Vector3d& r = rotor.r_B;
+      arms_.push_back({a,
+                       {r[1] * a[2] - r[2] * a[1], r[2] * a[0] - r[0] * a[2], r[0] * a[1] - r[1] * a[0]},
+                       rotor.s * a});
+    }
     air_.wind_W = Vec3<S>(S(0.0), S(0.0), S(0.0));
     effects.apply(air_);
   }
@@ -77,6 +90,7 @@ class Body {
   Wrench<S> wrench(const BodyState<S>& state, const Mat3<S>& R_WB,
                    std::span<const MotorState<S>> motors) const {
     const S zero(0.0);
+    if (plain_) return plain_wrench(state, motors);
     Wrench<S> sum{Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
     const bool flow = (effects_->touches() & kTouchFlow) != 0;
     Vec3<S> v_air_B(zero, zero, zero);
@@ -136,18 +150,48 @@ class Body {
     return sum;
   }
 
+  /// Equations (3) and (4) when all axes are constants and nothing acts on the flow: sums over the rotors of
+  /// Omega^2, s Omega^2, s Omega and s Omega' with constant vectors.
+  Wrench<S> plain_wrench(const BodyState<S>& state, std::span<const MotorState<S>> motors) const {
+    const S zero(0.0);
+    Vec3<S> F(zero, zero, zero), rF(zero, zero, zero), Q(zero, zero, zero), h(zero, zero, zero),
+        h_dot(zero, zero, zero);
+    const auto add = [](Vec3<S>& sum_B, const Eigen::Vector3d& direction, const S& x) {
+      for (int i = 0; i < 3; ++i)
+        if (direction[i] != 0) sum_B[i] = sum(sum_B[i], direction[i], x);
+    };
+    for (std::size_t n = 0; n < arms_.size(); ++n) {
+      const S Omega2 = motors[n].Omega * motors[n].Omega;
+      add(F, arms_[n].a_B, Omega2), add(rF, arms_[n].moment_B, Omega2), add(Q, arms_[n].spin_B, Omega2);
+      if (spinning_)
+        add(h, arms_[n].spin_B, motors[n].Omega), add(h_dot, arms_[n].spin_B, motors[n].Omega_dot);
+    }
+    Wrench<S> total;
+    for (int i = 0; i < 3; ++i) {
+      total.F_B[i] = p_[param::kT] * F[i];                          // (3)
+      total.M_B[i] = p_[param::kT] * rF[i] - p_[param::kQ] * Q[i];  // (4)
+    }
+    if (spinning_) {
+      const double sigma = vehicle_->signs == Signs::first_principles ? 1.0 : -1.0;  // erratum 1
+      const Vec3<S> turning = cross(state.w_B, h);
+      for (int i = 0; i < 3; ++i) total.M_B[i] -= (sigma * Jp_) * (h_dot[i] + turning[i]);  // (4)
+    }
+    return total;
+  }
+
   /// Equations (5) to (7).
   BodyRate<S> rate(const BodyState<S>& state, std::span<const MotorState<S>> motors) const {
     const Mat3<S> R_WB = rotation(state.q_WB);
     const Wrench<S> total = wrench(state, R_WB, motors);
     const Vec3<S>& w = state.w_B;
     BodyRate<S> out;
-    Vec3<S> M = total.M_B - cross(w, Vec3<S>(J_ * w));
+    Vec3<S> M = total.M_B - cross(w, times(J_, w));
     if (off_centre_) M -= cross(c_B_, total.F_B);
-    out.w_dot_B = J_inverse_ * M;  // (5)
-    out.f_B = total.F_B / m_;      // (6)
+    out.w_dot_B = times(J_inverse_, M);                                  // (5)
+    for (int i = 0; i < 3; ++i) out.f_B[i] = total.F_B[i] * m_inverse_;  // (6)
     if (off_centre_) out.f_B -= cross(out.w_dot_B, c_B_) + cross(w, cross(w, c_B_));
-    out.v_dot_W = R_WB * out.f_B;
+    for (int i = 0; i < 3; ++i)
+      out.v_dot_W[i] = R_WB(i, 0) * out.f_B[0] + R_WB(i, 1) * out.f_B[1] + R_WB(i, 2) * out.f_B[2];
     out.v_dot_W[2] = out.v_dot_W[2] + vehicle_->g;
     const Vec4<S>& q = state.q_WB;  // (7)
     out.q_dot = Vec4<S>(
@@ -171,6 +215,11 @@ class Body {
     J(1, 2) = J(2, 1) = p[param::Jyz];
     return J;
   }
+  // Only the diagonal when there are no products of inertia.
+  Vec3<S> times(const Mat3<S>& A, const Vec3<S>& x) const {
+    if (diagonal_) return Vec3<S>(A(0, 0) * x[0], A(1, 1) * x[1], A(2, 2) * x[2]);
+    return A * x;
+  }
   static Vec3<S> turned_into_body(const Mat3<S>& R_WB, const Vec3<S>& v_W) {
     return Vec3<S>(dot(Vec3<S>(R_WB.col(0)), v_W), dot(Vec3<S>(R_WB.col(1)), v_W),
                    dot(Vec3<S>(R_WB.col(2)), v_W));
@@ -179,14 +228,18 @@ class Body {
   const Vehicle* vehicle_;
   std::span<const S> p_;
   const Effects* effects_;
-  S m_, Jp_;
+  S m_, m_inverse_, Jp_;
   Mat3<S> J_, J_inverse_;
   Vec3<S> c_B_;
   AirSeam<S> air_;
   std::vector<Vec3<S>> a_B_;
+  /// Constant vectors of a rotor: axis, moment of a unit thrust, axis times spin.
+  struct Arm {
+    Eigen::Vector3d a_B, moment_B, spin_B;
+  };
+  std::vector<Arm> arms_;
   double Omega_hover_ = 1.0;
-  bool off_centre_ = false, spinning_ = false,
-       linear_drag_ = false;
+  bool off_centre_ = false, spinning_ = false, linear_drag_ = false, diagonal_ = false, plain_ = false;
 };
 
 }  // namespace ident

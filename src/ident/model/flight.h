@@ -41,6 +41,8 @@ class Flight {
         rotors_(vehicle.rotors.size()) {
     delays_ = {p[param::dead_time], S(0.0)};
     effects.apply(delays_);
+    constant_delay_ = is_constant(delays_.command_delay);
+    gain_ = (effects.touches() & kTouchGain) != 0;
     asymmetric_ = (effects.touches() & kTouchAsymmetry) != 0;
     DriveSeam<S> drive{0.0, 1.0, false, S(1.0), S(1.0)};
     effects.apply(drive);
@@ -61,10 +63,10 @@ class Flight {
     const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid);
     const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid);
     const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end);
-    next.body.q_WB = x.body.q_WB + (h / 6) * (k1.q_dot + 2.0 * (k2.q_dot + k3.q_dot) + k4.q_dot);
-    next.body.w_B = x.body.w_B + (h / 6) * (k1.w_dot_B + 2.0 * (k2.w_dot_B + k3.w_dot_B) + k4.w_dot_B);
-    next.body.v_W = x.body.v_W + (h / 6) * (k1.v_dot_W + 2.0 * (k2.v_dot_W + k3.v_dot_W) + k4.v_dot_W);
-    next.body.x_W = x.body.x_W + (h / 6) * (k1.x_dot_W + 2.0 * (k2.x_dot_W + k3.x_dot_W) + k4.x_dot_W);
+    next.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
+    next.body.w_B = combined(x.body.w_B, h, k1.w_dot_B, k2.w_dot_B, k3.w_dot_B, k4.w_dot_B);
+    next.body.v_W = combined(x.body.v_W, h, k1.v_dot_W, k2.v_dot_W, k3.v_dot_W, k4.v_dot_W);
+    next.body.x_W = combined(x.body.x_W, h, k1.x_dot_W, k2.x_dot_W, k3.x_dot_W, k4.x_dot_W);
     return next;
   }
 
@@ -78,6 +80,12 @@ class Flight {
   /// Steady motor speeds for the command that holds at t: a start when nothing else is known.
   S steady_speed(std::size_t rotor, double t) const { return target(rotor, t, 1e-6); }
 
+  /// The motors alone, h seconds on.
+  void advance(std::array<MotorState<S>, kMaxRotors>& motors, double t, double h) {
+    const std::array<MotorState<S>, kMaxRotors> from = motors;
+    advance_motors(from, t, h, motors);
+  }
+
   /// What the IMU shows at a state with that rate; gyro bias is added by the caller.
   SensorSeam<S> imu(const BodyState<S>& state, const BodyRate<S>& rate) const {
     SensorSeam<S> seam{state.w_B, rate.w_dot_B, rate.f_B, state.w_B};
@@ -87,17 +95,23 @@ class Flight {
 
  private:
   static BodyState<S> moved(const BodyState<S>& x, const BodyRate<S>& k, double h) {
-    return {x.q_WB + h * k.q_dot, x.w_B + h * k.w_dot_B, x.v_W + h * k.v_dot_W, x.x_W + h * k.x_dot_W};
+    return {sum(x.q_WB, h, k.q_dot), sum(x.w_B, h, k.w_dot_B), sum(x.v_W, h, k.v_dot_W),
+            sum(x.x_W, h, k.x_dot_W)};
+  }
+
+  // x + h/6 (a + 2 b + 2 c + d)
+  template <int N>
+  static Eigen::Matrix<S, N, 1> combined(const Eigen::Matrix<S, N, 1>& x, double h,
+                                         const Eigen::Matrix<S, N, 1>& a, const Eigen::Matrix<S, N, 1>& b,
+                                         const Eigen::Matrix<S, N, 1>& c, const Eigen::Matrix<S, N, 1>& d) {
+    return sum(sum(sum(sum(x, h / 6, a), h / 3, b), h / 3, c), h / 6, d);
   }
 
   double interpolated(const std::vector<double>& column, double t) const {
-    const auto& axis = inputs_->t;
-    const auto next = std::upper_bound(axis.begin(), axis.end(), t);
-    if (next == axis.begin()) return column.front();
-    if (next == axis.end()) return column.back();
-    const auto i = static_cast<std::size_t>(next - axis.begin());
-    const double part = (t - axis[i - 1]) / (axis[i] - axis[i - 1]);
-    return column[i - 1] + part * (column[i] - column[i - 1]);
+    const double *axis = inputs_->t.data(), *y = column.data();
+    const std::size_t n = inputs_->t.size(), i = row_before<S>(axis, n, t);
+    if (t <= axis[0] || i + 1 == n) return y[i];
+    return y[i] + (t - axis[i]) / (axis[i + 1] - axis[i]) * (y[i + 1] - y[i]);
   }
 
   void measured_motors(double t, std::array<MotorState<S>, kMaxRotors>& motors) const {
@@ -111,11 +125,17 @@ class Flight {
 
   // Right-hand side of (1) over omega_m^2: Omega_0 + km delta, with the drive seam.
   S target(std::size_t rotor, double t, double h) const {
+    const HeldCommand& command = inputs_->delta[rotor];
+    const S goal = constant_delay_
+                       ? sum(p_[param::Omega_0],
+                             command.template mean<S>(t, t + h, value(delays_.command_delay)), p_[param::km])
+                       : S(p_[param::Omega_0] +
+                           p_[param::km] * command.template mean<S>(t, t + h, delays_.command_delay));
+    if (!gain_) return goal;
     DriveSeam<S> drive{t - inputs_->t0, 1.0, !inputs_->voltage_ratio.empty(), S(1.0), S(1.0)};
     if (drive.has_voltage) drive.voltage_ratio = interpolated(inputs_->voltage_ratio, t + h / 2);
     effects_->apply(drive);
-    const S delta = inputs_->delta[rotor].template mean<S>(t, t + h, delays_.command_delay);
-    return (p_[param::Omega_0] + p_[param::km] * delta) * drive.gain;
+    return goal * drive.gain;
   }
 
   void advance_motors(const std::array<MotorState<S>, kMaxRotors>& from, double t, double h,
@@ -147,7 +167,7 @@ class Flight {
   std::size_t rotors_;
   TimeSeam<S> delays_;
   S down_ratio_;
-  bool asymmetric_ = false;
+  bool asymmetric_ = false, gain_ = false, constant_delay_ = false;
   double h_ = -1.0;
   MotorTransition<S> up_, down_;
 };

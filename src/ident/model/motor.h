@@ -12,7 +12,6 @@
 // C and S are entire functions of z, so (2) has finite derivatives through zeta_m = 1 and at h = 0.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "ident/core/math.h"
@@ -67,6 +66,18 @@ MotorTransition<S> motor_transition(const S& omega_m, const S& zeta_m, double h)
   return {C + sigma * D, D, -(omega_m * omega_m) * D, C - sigma * D};  // (2)
 }
 
+/// Last row with t <= at, the first row if there is none; n > 0. Templated on the scalar so that code
+/// compiled for one instruction set never calls that of another (core/dual.h).
+template <class S>
+std::size_t row_before(const double* t, std::size_t n, double at) {
+  std::size_t low = 0, high = n;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (t[middle] <= at ? low : high) = middle;
+  }
+  return low;
+}
+
 /// A command history held from each sample to the next; answers the mean over an interval.
 ///
 /// The mean over [from - tau, to - tau] is continuous in the dead time tau and has its derivative
@@ -82,21 +93,25 @@ class HeldCommand {
 
   template <class S>
   S mean(double from, double to, const S& tau) const {
-    return (integral(S(to) - tau) - integral(S(from) - tau)) * (1.0 / (to - from));
+    return (integral<S>(S(to - tau)) - integral<S>(S(from - tau))) * (1.0 / (to - from));
+  }
+  /// The same for a delay that is not estimated: a plain number.
+  template <class S>
+  requires(!std::is_same_v<S, double>) double mean(double from, double to, double tau) const {
+    return (integral<S>(to - tau) - integral<S>(from - tau)) * (1.0 / (to - from));
   }
 
   /// Value that holds at time `at`.
-  double at(double at) const { return delta_[index(at)]; }
+  template <class S>
+  double at(const S& at) const {
+    return delta_.data()[row_before<S>(t_.data(), t_.size(), value(at))];
+  }
 
  private:
-  std::size_t index(double at) const {
-    const auto next = std::upper_bound(t_.begin(), t_.end(), at);
-    return next == t_.begin() ? 0 : static_cast<std::size_t>(next - t_.begin()) - 1;
-  }
-  template <class S>
+  template <class Tag, class S>
   S integral(const S& at) const {
-    const std::size_t i = index(value(at));
-    return sum_[i] + delta_[i] * (at - t_[i]);
+    const std::size_t i = row_before<Tag>(t_.data(), t_.size(), value(at));
+    return sum_.data()[i] + delta_.data()[i] * (at - t_.data()[i]);
   }
 
   std::vector<double> t_, delta_, sum_;

@@ -71,6 +71,7 @@ enum Touch : unsigned {
   kTouchCentre = 2,     ///< centre of gravity off the origin
   kTouchSpin = 4,       ///< momentum of the rotors
   kTouchAsymmetry = 8,  ///< spin-down differs from spin-up
+  kTouchGain = 16,      ///< rotor speed per command
 };
 
 /// The model without any effect: every seam is left as it is.

@@ -1,0 +1,31 @@
+// What the flight commands share: logs and vehicle named on the command line or from the campaign.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "ident/data/flight_log.h"
+#include "ident/io/campaign.h"
+
+namespace ident::app {
+
+struct FlightOptions {
+  std::vector<std::string> files;
+  std::string vehicle, params, map;
+};
+
+void add_flight_options(CLI::App& cli, FlightOptions& options);
+
+struct FlightInput {
+  Vehicle vehicle;
+  std::vector<FlightLog> logs;
+  std::optional<Campaign> campaign;  ///< set when the logs came from it: results are stored there
+};
+
+/// Reads them; without a file the campaign's logs, without --vehicle its vehicle. Throws UsageError when
+/// there is none.
+FlightInput flight_input(const FlightOptions& options, Context& context);
+
+}  // namespace ident::app

@@ -1,0 +1,50 @@
+// `ident flightlog`: a model against flight logs, verified as it is or refined.
+#include "flight_input.h"
+#include "ident/estimators/flight_refine.h"
+
+namespace ident::app {
+namespace {
+
+struct Options {
+  FlightOptions flight;
+  bool refine = false;
+  std::vector<std::string> free;
+  double horizon = 1.0;
+};
+
+Outcome run(const Options& options, Context& context) {
+  FlightInput input = flight_input(options.flight, context);
+  if (!options.refine) return verify_flight(input.vehicle, input.logs, options.horizon);
+  Progress progress("refining");
+  RefineOptions refine;
+  refine.free = options.free;
+  refine.progress = [&](double share) { progress.update(share); };
+  Result result = refine_flight(input.vehicle, input.logs, refine);
+  if (input.campaign)
+    context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
+  return result;
+}
+
+}  // namespace
+
+Action flightlog_command(CLI::App& cli) {
+  auto options = std::make_shared<Options>();
+  add_flight_options(cli, options->flight);
+  cli.add_flag("--refine", options->refine,
+               "estimate all parameters together, what is known before as priors");
+  cli.add_option("--free", options->free, "further parameters to estimate")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  cli.add_option("--horizon", options->horizon, "length of the simulated windows without --refine, s")
+      ->check(CLI::Range(0.02, 60.0))
+      ->type_name("SECONDS");
+  examples(
+      cli,
+      {{"ident flightlog log.csv --vehicle v.yaml", "the model as it is, simulated against the log"},
+       {"ident flightlog a.csv b.csv --vehicle v.yaml --refine", "all parameters together from both logs"},
+       {"ident flightlog log.csv --map m.yaml --vehicle v.yaml --refine",
+        "a log with other names and units"}});
+  return [options](Context& context) { return run(*options, context); };
+}
+
+}  // namespace ident::app

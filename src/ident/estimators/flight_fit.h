@@ -1,0 +1,53 @@
+// Fits the shared unknowns to flight: Ceres steps over the smoother, noise levels from the data, honest
+// covariance.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "ident/estimators/flight_smoother.h"
+
+namespace ident {
+
+struct FlightFitOptions {
+  double chunk_seconds = 0.0;  ///< 0: chosen from the noise that is found
+  bool estimate_noise = true;
+  std::optional<NoiseModel> noise;  ///< to start from
+  int noise_rounds = 6;
+  double block_seconds = 2.0;  ///< of the sandwich covariance
+  double tolerance = 1e-9;
+  int threads = 0;
+  std::function<void(double)> progress;  ///< share done
+};
+
+struct FlightFit {
+  Eigen::VectorXd u;
+  Eigen::MatrixXd information;       ///< of u, from the data alone
+  Eigen::MatrixXd covariance;        ///< of u, priors included, corrected for the colour of the residuals
+  Eigen::MatrixXd naive_covariance;  ///< the same as if residuals were white
+  double cost = 0.0;
+  NoiseModel noise;
+  double chunk_seconds = 0.0;
+  int steps = 0, evaluations = 0;
+  bool converged = false;
+  std::shared_ptr<FlightSmoother> smoother;  ///< at the optimum; refers to the record and theta of the call
+};
+
+/// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.
+FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
+
+/// The shared unknowns alone, states and noise as they are: Ceres over `smoother` from `u`.
+Eigen::VectorXd minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& u, double tolerance,
+                                int max_steps, int* steps = nullptr, double* cost = nullptr);
+
+/// Levels of noise to start from: white noise from differences, a generous process noise.
+NoiseModel initial_noise(const FlightRecord& record);
+
+/// One fixed-point step of the noise levels from the residual moments at the smoother's states; returns the
+/// largest relative change of a standard deviation.
+double update_noise(FlightSmoother& smoother);
+
+/// Chunks short enough for that noise, s.
+double chunk_for(const FlightRecord& record, const NoiseModel& noise);
+
+}  // namespace ident

@@ -1,0 +1,12 @@
+// The flight kernel compiled for one instruction set: avx512.
+#include "ident/estimators/flight_kernel_impl.h"
+
+namespace ident {
+
+struct IsaAvx512 {};
+
+void evaluate_chunk_avx512(const ChunkTask& task, ChunkResult& result) {
+  ChunkKernel<IsaAvx512>::evaluate(task, result);
+}
+
+}  // namespace ident

@@ -1,0 +1,12 @@
+// The flight kernel compiled for one instruction set: baseline.
+#include "ident/estimators/flight_kernel_impl.h"
+
+namespace ident {
+
+struct IsaBaseline {};
+
+void evaluate_chunk_baseline(const ChunkTask& task, ChunkResult& result) {
+  ChunkKernel<IsaBaseline>::evaluate(task, result);
+}
+
+}  // namespace ident

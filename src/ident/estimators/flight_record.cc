@@ -1,0 +1,378 @@
+// Cuts logs into arcs, numbers the channels and reads first states and noise levels off the data.
+#include "ident/estimators/flight_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ident/core/error.h"
+
+namespace ident {
+namespace {
+
+constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
+
+double median(std::vector<double> v) {
+  if (v.empty()) return kNaN;
+  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), middle, v.end());
+  return *middle;
+}
+
+Signals signals_of(std::span<const FlightLog> logs) {
+  Signals s;
+  for (const FlightLog& log : logs) {
+    s.commands |= log.has_commands();
+    s.rates |= log.has_rates();
+    s.force |= log.has_specific_force();
+    s.attitude |= log.has_attitude();
+    s.velocity |= log.has_velocity();
+    s.position |= log.has_position();
+    s.rotor_speeds |= log.has_rotor_speeds();
+    s.voltage |= !log.vbat.empty();
+  }
+  return s;
+}
+
+StateLayout layout_of(const Signals& s, int rotors, bool whole) {
+  StateLayout layout;
+  layout.rotors = rotors;
+  int next = 3;
+  const auto take = [&](int n) {
+    const int at = next;
+    next += n;
+    return at;
+  };
+  if (s.attitude || s.velocity || s.position || whole) layout.attitude = take(3);
+  if (s.velocity || s.position) layout.v = take(3);
+  if (s.position) layout.x = take(3);
+  if (s.commands) layout.motors = take(2 * rotors);
+  layout.size = next;
+  return layout;
+}
+
+// Collective per row: mean command, or mean squared rotor speed.
+std::vector<double> collective(const FlightLog& log) {
+  std::vector<double> sum(log.rows(), 0.0);
+  const auto& columns = log.has_commands() ? log.delta : log.Omega;
+  std::vector<double> last(columns.size(), 0.0);
+  for (std::size_t i = 0; i < log.rows(); ++i)
+    for (std::size_t n = 0; n < columns.size(); ++n) {
+      if (std::isfinite(columns[n][i])) last[n] = columns[n][i];
+      sum[i] += last[n] * (log.has_commands() ? 1.0 : last[n]);
+    }
+  return sum;
+}
+
+// Rows in flight: inside a window if there are windows, else where the rotors turn well above idle.
+std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings) {
+  std::vector<bool> fly(log.rows(), log.windows.empty());
+  for (const auto& window : log.windows)
+    for (std::size_t i = 0; i < log.rows(); ++i)
+      if (log.t[i] >= window[0] && log.t[i] <= window[1]) fly[i] = true;
+  if (!log.windows.empty()) return fly;
+  const std::vector<double> level = collective(log);
+  std::vector<double> turning;
+  for (const double x : level)
+    if (x > 0) turning.push_back(x);
+  const double threshold = kGroundShare * median(turning);
+  std::size_t grounded = 0;
+  double quiet_until = -1e300;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (!(level[i] > threshold)) quiet_until = log.t[i] + 1.0;  // spin-up and the first second of lift-off
+    if (log.t[i] < quiet_until) fly[i] = false, ++grounded;
+  }
+  if (grounded > 0 && grounded < log.rows()) {
+    warnings.push_back({"ground_excluded",
+                        fmt::format("{}: {:.1f} s with rotors at rest or just started are not used", log.file,
+                                    static_cast<double>(grounded) * (log.t.back() - log.t.front()) /
+                                        static_cast<double>(log.rows()))});
+  }
+  return fly;
+}
+
+// Rows that hold nothing but time end an arc when they last; so do jumps of time.
+std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, const std::vector<bool>& fly,
+                                                        double gap) {
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  std::size_t begin = 0;
+  bool open = false;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const bool breaks = i > 0 && log.t[i] - log.t[i - 1] > gap;
+    if (open && (breaks || !fly[i])) {
+      out.emplace_back(begin, i);
+      open = false;
+    }
+    if (!open && fly[i]) begin = i, open = true;
+  }
+  if (open) out.emplace_back(begin, log.rows());
+  std::erase_if(out, [&](const auto& p) {
+    return log.t[p.second - 1] - log.t[p.first] < 0.3 || p.second - p.first < 8;
+  });
+  return out;
+}
+
+double filled(const std::vector<double>& column, std::size_t i, double otherwise) {
+  return column.empty() || !std::isfinite(column[i]) ? otherwise : column[i];
+}
+
+// The column with gaps interpolated linearly; empty when nothing was sampled.
+std::vector<double> interpolated(const std::vector<double>& t, const std::vector<double>& column) {
+  std::vector<double> out = column;
+  std::size_t last = column.size();
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (!std::isfinite(column[i])) continue;
+    for (std::size_t k = last == column.size() ? 0 : last + 1; k < i; ++k) {
+      out[k] = last == column.size()
+                   ? column[i]
+                   : column[last] + (t[k] - t[last]) / (t[i] - t[last]) * (column[i] - column[last]);
+    }
+    last = i;
+  }
+  if (last == column.size()) return {};
+  for (std::size_t k = last + 1; k < column.size(); ++k) out[k] = column[last];
+  return out;
+}
+
+FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::size_t end,
+                   const Vehicle& vehicle, double v0) {
+  FlightArc arc;
+  arc.log = number;
+  const auto cut = [&](const std::vector<double>& c) {
+    return std::vector<double>(c.begin() + static_cast<std::ptrdiff_t>(begin),
+                               c.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  arc.t = cut(log.t);
+  const std::size_t rows = arc.rows();
+  arc.y.assign(rows * kChannels, kNaN);
+  arc.q.assign(rows * 4, kNaN);
+  const auto put = [&](const std::vector<double>& column, int channel) {
+    if (column.empty()) return;
+    for (std::size_t i = 0; i < rows; ++i)
+      arc.y[i * kChannels + static_cast<std::size_t>(channel)] = column[begin + i];
+  };
+  for (int k = 0; k < 3; ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    put(log.w_B[c], kGyro + k), put(log.f_B[c], kForce + k), put(log.v_W[c], kVelocity + k),
+        put(log.x_W[c], kPosition + k);
+  }
+  for (std::size_t i = 0; i < rows && log.has_attitude(); ++i) {
+    bool whole = true;
+    for (std::size_t k = 0; k < 4; ++k) whole &= std::isfinite(arc.q[4 * i + k] = log.q_WB[k][begin + i]);
+    for (std::size_t k = 0; k < 3; ++k) arc.y[i * kChannels + kAttitude + k] = whole ? 0.0 : kNaN;
+  }
+  arc.inputs.t0 = log.t.front();
+  if (log.has_commands()) {
+    for (const auto& column : log.delta) {
+      std::vector<double> t, d;
+      for (std::size_t i = 0; i < log.rows(); ++i)
+        if (std::isfinite(column[i])) t.push_back(log.t[i]), d.push_back(column[i]);
+      if (t.empty()) t = {log.t.front()}, d = {0.0};
+      arc.inputs.delta.emplace_back(std::move(t), std::move(d));
+    }
+    for (std::size_t n = 0; n < log.Omega.size() && n < vehicle.rotors.size(); ++n)
+      put(log.Omega[n], kRotorChannel + static_cast<int>(n));
+  }
+  arc.inputs.t = arc.t;
+  for (const auto& column : log.Omega) arc.inputs.Omega.push_back(interpolated(arc.t, cut(column)));
+  if (!log.vbat.empty()) {
+    arc.inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
+    for (double& v : arc.inputs.voltage_ratio) v = std::max(v / v0, 0.05);
+  }
+  return arc;
+}
+
+// White noise by second differences of consecutive samples, robust against jumps.
+double noise_by_differences(const FlightRecord& record, int channel) {
+  std::vector<double> size;
+  for (const FlightArc& arc : record.arcs) {
+    double a = kNaN, b = kNaN;
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+      if (!std::isfinite(y)) continue;
+      if (std::isfinite(a)) size.push_back(std::abs(y - 2 * b + a));
+      a = b, b = y;
+    }
+  }
+  return size.empty() ? kNaN : 1.4826 * median(size) / std::sqrt(6.0);
+}
+
+double attitude_noise(const FlightRecord& record, int axis) {
+  std::vector<double> size;
+  for (const FlightArc& arc : record.arcs) {
+    Eigen::Vector4d q1, q2;
+    int have = 0;
+    double turn1 = 0;
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      if (!std::isfinite(arc.y[i * kChannels + kAttitude])) continue;
+      const Eigen::Vector4d q(arc.q[4 * i], arc.q[4 * i + 1], arc.q[4 * i + 2], arc.q[4 * i + 3]);
+      if (have > 0) {
+        const Vec4<double> d = quaternion_product(conjugate(q1), q);
+        const double turn = 2 * d[1 + axis] * (d[0] < 0 ? -1 : 1);
+        if (have > 1) size.push_back(std::abs(turn - turn1));
+        turn1 = turn;
+      }
+      q1 = q;
+      ++have;
+    }
+  }
+  return size.empty() ? kNaN : 1.4826 * median(size) / std::sqrt(6.0);
+}
+
+void set_noise(FlightRecord& record) {
+  for (int c = 0; c < kChannels; ++c) {
+    const bool turn = c >= kAttitude && c < kAttitude + 3;
+    const double s = turn ? attitude_noise(record, c - kAttitude) : noise_by_differences(record, c);
+    record.sigma[static_cast<std::size_t>(c)] = std::isfinite(s) ? std::max(s, 1e-9) : 1.0;
+  }
+  // One level for the axes of a sensor: a quiet axis must not be trusted beyond its sensor.
+  for (const int group : {int{kGyro}, int{kForce}, int{kAttitude}, int{kVelocity}, int{kPosition}}) {
+    const auto g = static_cast<std::size_t>(group);
+    const double top = std::max({record.sigma[g], record.sigma[g + 1], record.sigma[g + 2]});
+    for (std::size_t k = 0; k < 3; ++k) record.sigma[g + k] = std::max(record.sigma[g + k], 0.2 * top);
+  }
+}
+
+// Motor states by simulating the commands; measured speeds replace the simulated ones.
+void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
+  const EffectSet<double> effects(p, active_effects(p));
+  Flight<double, EffectSet<double>> flight(vehicle, p, effects, arc.inputs);
+  const std::size_t rotors = vehicle.rotors.size();
+  std::array<MotorState<double>, kMaxRotors> motors{};
+  for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
+  for (std::size_t i = 0; i < arc.rows(); ++i) {
+    for (std::size_t n = 0; n < rotors; ++n) {
+      const double y = arc.y[i * kChannels + kRotorChannel + n];
+      if (std::isfinite(y) && y > 0) motors[n].Omega += 0.5 * (y - motors[n].Omega);
+    }
+    arc.start[i].motors = motors;
+    if (i + 1 < arc.rows()) flight.advance(motors, arc.t[i], arc.t[i + 1] - arc.t[i]);
+  }
+}
+
+void set_start(FlightRecord& record, std::span<const double> p) {
+  for (FlightArc& arc : record.arcs) {
+    const std::size_t rows = arc.rows();
+    arc.start.resize(rows);
+    const auto column = [&](int channel) {
+      std::vector<double> c(rows);
+      for (std::size_t i = 0; i < rows; ++i) c[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+      return interpolated(arc.t, c);
+    };
+    std::array<std::vector<double>, 3> w, v, x;
+    std::array<std::vector<double>, 4> q;
+    for (int k = 0; k < 3; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      w[c] = column(kGyro + k), v[c] = column(kVelocity + k), x[c] = column(kPosition + k);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::vector<double> c(rows);
+      for (std::size_t i = 0; i < rows; ++i) c[i] = arc.q[4 * i + k];
+      q[k] = interpolated(arc.t, c);
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+      BodyState<double>& b = arc.start[i].body;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        b.w_B[at] = filled(w[k], i, 0.0);
+        b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
+        b.v_W[at] = filled(v[k], i, 0.0);
+        if (v[k].empty() && !x[k].empty()) {
+          const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
+          b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
+        }
+      }
+      for (std::size_t k = 0; k < 4; ++k)
+        b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
+      b.q_WB.normalize();
+      if (w[0].empty() && !q[0].empty() && i + 1 < rows) {
+        const Vec4<double> a(q[0][i], q[1][i], q[2][i], q[3][i]),
+            e(q[0][i + 1], q[1][i + 1], q[2][i + 1], q[3][i + 1]);
+        const Vec4<double> d = quaternion_product(conjugate(a), e);
+        for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
+      }
+    }
+    if (arc.inputs.commanded()) set_motor_start(arc, *record.vehicle, p);
+  }
+}
+
+}  // namespace
+
+FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
+                                std::span<const FlightLog> logs, const RecordOptions& options) {
+  FlightRecord record;
+  record.vehicle = &vehicle;
+  record.logs = static_cast<int>(logs.size());
+  record.signals = signals_of(logs);
+  const int rotors = static_cast<int>(vehicle.rotors.size());
+  if (rotors == 0 || rotors > kMaxRotors)
+    throw UsageError(
+        fmt::format("{}: rotors: 1 to {} rotors are supported, not {}", vehicle.file, kMaxRotors, rotors));
+  record.layout = layout_of(record.signals, rotors, options.whole_state);
+  for (std::size_t n = 0; n < logs.size(); ++n) {
+    const FlightLog& log = logs[n];
+    if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");
+    double v0 = vehicle.battery_voltage.value_or(kNaN);
+    if (!std::isfinite(v0)) {
+      v0 = -1e300;
+      for (const double v : log.vbat)
+        if (std::isfinite(v)) v0 = std::max(v0, v);
+    }
+    const std::vector<bool> fly = in_flight(log, record.warnings);
+    for (const auto& [begin, end] : pieces(log, fly, options.longest_gap))
+      record.arcs.push_back(make_arc(log, static_cast<int>(n), begin, end, vehicle, v0));
+  }
+  std::vector<double> intervals;
+  for (const FlightArc& arc : record.arcs) {
+    record.duration += arc.t.back() - arc.t.front();
+    for (std::size_t i = 1; i < arc.rows(); ++i) intervals.push_back(arc.t[i] - arc.t[i - 1]);
+  }
+  record.interval = median(intervals);
+  if (record.arcs.empty())
+    throw DataError("no flight in these logs: no uninterrupted part of 0.3 s or more with turning rotors");
+  if (!record.signals.rates && !record.signals.attitude && !record.signals.force &&
+      !record.signals.velocity && !record.signals.position)
+    throw DataError(
+        "nothing that moves was logged: rates, specific force, attitude, velocity or position are needed");
+  set_noise(record);
+  set_start(record, p);
+  return record;
+}
+
+RecordSplit split_record(const FlightRecord& record, double training_share) {
+  RecordSplit split{record, record};
+  split.training.arcs.clear(), split.held_out.arcs.clear();
+  for (const FlightArc& arc : record.arcs) {
+    const double border = arc.t.front() + training_share * (arc.t.back() - arc.t.front());
+    const auto cut =
+        static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), border) - arc.t.begin());
+    const auto part = [&](std::size_t begin, std::size_t end) {
+      FlightArc piece;
+      piece.log = arc.log;
+      const auto range = [&](const auto& v, std::size_t width) {
+        return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
+                                         v.begin() + static_cast<std::ptrdiff_t>(end * width));
+      };
+      piece.t = range(arc.t, 1), piece.y = range(arc.y, kChannels), piece.q = range(arc.q, 4),
+      piece.start = range(arc.start, 1);
+      piece.inputs = arc.inputs;
+      return piece;
+    };
+    if (cut >= 8) split.training.arcs.push_back(part(0, cut));
+    if (arc.rows() - cut >= 8) split.held_out.arcs.push_back(part(cut, arc.rows()));
+  }
+  for (FlightRecord* half : {&split.training, &split.held_out}) {
+    half->duration = 0;
+    for (const FlightArc& arc : half->arcs) half->duration += arc.t.back() - arc.t.front();
+  }
+  return split;
+}
+
+std::string channel_name(int channel) {
+  static constexpr std::array names = {"p",          "q",  "r",  "ax", "ay", "az", "attitude x", "attitude y",
+                                       "attitude z", "vx", "vy", "vz", "x",  "y",  "z"};
+  if (channel < kRotorChannel) return names[static_cast<std::size_t>(channel)];
+  return fmt::format("omega{}", channel - kRotorChannel + 1);
+}
+
+}  // namespace ident

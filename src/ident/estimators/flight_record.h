@@ -1,0 +1,63 @@
+// Flight logs made ready for estimation: uninterrupted arcs in flight, channels by number, noise levels to
+// start from.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ident/data/flight_log.h"
+#include "ident/estimators/flight_kernel.h"
+
+namespace ident {
+
+/// An uninterrupted piece of one log.
+struct FlightArc {
+  int log = 0;
+  std::vector<double> t;  ///< s
+  std::vector<double> y;  ///< [row][kChannels], NaN where not sampled
+  std::vector<double> q;  ///< [row][4] measured attitude
+  FlightInputs inputs;
+  std::vector<FlightState<double>> start;  ///< state of each row as read off the measurements
+
+  std::size_t rows() const { return t.size(); }
+};
+
+/// Whether a channel group was logged at all.
+struct Signals {
+  bool commands = false, rates = false, force = false, attitude = false, velocity = false, position = false,
+       rotor_speeds = false, voltage = false;
+};
+
+struct FlightRecord {
+  const Vehicle* vehicle = nullptr;
+  std::vector<FlightArc> arcs;
+  int logs = 0;
+  Signals signals;
+  StateLayout layout;
+  std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
+  double interval = 0.0;                  ///< median time between rows, s
+  double duration = 0.0;                  ///< of all arcs, s
+  std::vector<Warning> warnings;
+};
+
+struct RecordOptions {
+  double longest_gap = 0.25;  ///< s without a row that ends an arc
+  bool whole_state = false;   ///< keep attitude and velocity in the state although nothing measures them
+};
+
+/// Splits logs into arcs in flight. `p` are the constants to start from (motor states are simulated with
+/// them). Throws DataError when nothing is left to estimate from.
+FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
+                                std::span<const FlightLog> logs, const RecordOptions& options = {});
+
+/// The arcs cut at `held_out` of each log's time: the part before, the part after.
+struct RecordSplit {
+  FlightRecord training, held_out;
+};
+RecordSplit split_record(const FlightRecord& record, double training_share);
+
+/// Name of a channel: p, ax, attitude x, omega1.
+std::string channel_name(int channel);
+
+}  // namespace ident

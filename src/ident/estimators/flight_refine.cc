@@ -1,0 +1,261 @@
+// Puts the refinement together: start, fit, identifiability, disagreement with the bench, validation.
+#include "ident/estimators/flight_refine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/error.h"
+#include "ident/core/format_number.h"
+#include "ident/estimators/statistics.h"
+
+namespace ident {
+namespace {
+
+using Eigen::VectorXd;
+
+double mean_of_used(const std::vector<double>& column) {
+  double sum = 0, n = 0;
+  for (const double x : column)
+    if (std::isfinite(x) && x > 0) sum += x, n += 1;
+  return n > 0 ? sum / n : kNaN;
+}
+
+void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
+  for (const Parameter& p : result.parameters) {
+    if (p.pull && std::abs(*p.pull) > 3) {
+      result.warn(
+          "prior_disagrees",
+          fmt::format(
+              "{}: flight says {}, the value given beforehand was {} ({:+.1f} standard deviations): one of "
+              "the two is wrong, or the model lacks an effect (try ident gap)",
+              p.name, format_with_uncertainty(p.value, p.std),
+              format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull));
+    }
+  }
+  std::string unknown;
+  for (const Parameter& p : result.parameters)
+    if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;
+  if (!unknown.empty()) {
+    std::string text = "these logs do not determine " + unknown;
+    const std::vector<std::string> pairs = combinations(theta, fit, result.parameters);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
+    result.warn("not_identifiable", text);
+  }
+}
+
+Table validation_table(const FlightRecord& held_out, const Theta& theta, const VectorXd& before,
+                       const FlightFit& fit, Result& result) {
+  Table table{"Prediction error on held-out flight, in noise standard deviations",
+              {"horizon s", "parameters before", "refined", "floor", "windows"},
+              {}};
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const double horizon : {0.1, 0.5, 1.0}) {
+    PredictionOptions options;
+    options.horizon = horizon;
+    const PredictionSummary a = summarise(predict_windows(held_out, theta, before, fit.noise, options));
+    const PredictionSummary b = summarise(predict_windows(held_out, theta, fit.u, fit.noise, options));
+    if (b.windows == 0) continue;
+    table.rows.push_back({format_number(horizon), format_number(a.error, 3), format_number(b.error, 3),
+                          format_number(b.floor, 3), std::to_string(b.windows)});
+    all.push_back({{"horizon", horizon},
+                   {"before", a.error},
+                   {"after", b.error},
+                   {"after_ci95", b.ci95},
+                   {"noise_floor", b.floor},
+                   {"windows", b.windows}});
+  }
+  result.fit["held_out"] = all;
+  return table;
+}
+
+}  // namespace
+
+std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                                       std::vector<Warning>& warnings) {
+  Vehicle start = vehicle;
+  const auto assume = [&](const std::string& name, double value, const std::string& how) {
+    if (start.has(name) && start.value(name) > 0) return;
+    start.parameters[name].value = value;
+    warnings.push_back({"assumed_start", fmt::format("{}: not given, the search starts at {} ({})", name,
+                                                     format_number(value), how)});
+  };
+  if (!start.has("m")) throw UsageError(vehicle.file + ": mass: needed, no flight can tell it from kT");
+  const double weight = start.value("m") * vehicle.g, rotors = static_cast<double>(vehicle.rotors.size());
+  double level = kNaN, speed = kNaN, arm = 0;
+  for (const FlightLog& log : logs) {
+    for (const auto& c : log.delta) level = std::isfinite(level) ? level : mean_of_used(c);
+    for (const auto& c : log.Omega) speed = std::isfinite(speed) ? speed : mean_of_used(c);
+  }
+  for (const Rotor& r : vehicle.rotors) arm = std::max(arm, r.r_B.head<2>().norm());
+  if (!std::isfinite(speed))
+    speed = start.has("kT") && start.value("kT") > 0  ? std::sqrt(weight / (rotors * start.value("kT")))
+            : start.has("km") && std::isfinite(level) ? start.value("km") * level
+                                                      : 800.0;
+  assume("kT", weight / (rotors * speed * speed), "hover at the mean rotor speed");
+  assume("kQ", 0.015 * std::max(arm / 0.15, 0.3) * start.value("kT"), "a usual ratio to kT");
+  if (std::isfinite(level)) assume("km", speed / level, "hover at the mean command");
+  assume("omega_m", 20.0, "a usual motor");
+  const double J = start.value("m") * std::pow(0.4 * arm, 2);
+  assume("Jxx", J, "mass within 0.4 arm lengths");
+  assume("Jyy", J, "mass within 0.4 arm lengths");
+  assume("Jzz", 1.7 * J, "mass within 0.4 arm lengths");
+  return parameter_vector(start);
+}
+
+std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit,
+                                         const std::string& source) {
+  std::vector<Parameter> out;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    const double slope = std::abs(theta.slope(fit.u, i));
+    Parameter p;
+    p.name = c.name;
+    p.value = theta.physical(fit.u, i);
+    p.std = slope * std::sqrt(fit.covariance(i, i));
+    p.naive_std = slope * std::sqrt(fit.naive_covariance(i, i));
+    p.unit = parameter_unit(c.name);
+    p.source = source;
+    // In the logarithm for positive constants: the interval stays positive.
+    const double z = 1.96 * std::sqrt(fit.covariance(i, i));
+    p.ci95 = c.positive && z < 3 && !c.prior_std ? std::array{p.value * std::exp(-z), p.value * std::exp(z)}
+                                                 : std::array{p.value - 1.96 * p.std, p.value + 1.96 * p.std};
+    if (c.prior_std) {
+      p.prior_value = c.prior_value, p.prior_std = *c.prior_std;
+      const double ratio = std::min(*p.naive_std / *c.prior_std, 1.0);
+      p.from_flight = 1 - ratio * ratio;
+      // The pull compares the two sources of information, the flight's share of it being independent of the
+      // prior.
+      p.pull = (p.value - c.prior_value) /
+               std::sqrt(std::max(*c.prior_std * *c.prior_std - *p.naive_std * *p.naive_std,
+                                  1e-4 * *c.prior_std * *c.prior_std));
+      p.identifiable = p.std < 0.5 * *c.prior_std;
+    } else {
+      p.from_flight = 1.0;
+      p.identifiable = p.std < 0.1 * std::abs(p.value);
+    }
+    if (!p.identifiable)
+      p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
+    out.push_back(p);
+  }
+  return out;
+}
+
+std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
+                                      const std::vector<Parameter>& parameters) {
+  std::vector<std::string> out;
+  const auto usable = [&](std::size_t i) {
+    return theta.constants()[i].positive && !parameters[i].identifiable;
+  };
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      if (i == k || !usable(i) || !usable(k)) continue;
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
+      const double vi = fit.covariance(a, a), vk = fit.covariance(b, b), c = fit.covariance(a, b);
+      // log(x_i) + e log(x_k) has the least variance for e = -c/vk; a simple exponent that leaves little is a
+      // finding.
+      for (const double e : {1.0, 2.0, -1.0, -2.0}) {
+        const double v = vi + 2 * e * c + e * e * vk;
+        if (v > 0.04 * std::min(vi, e * e * vk) || (std::abs(e) == 1.0 && i > k)) continue;
+        const std::string power = std::abs(e) == 2 ? "^2" : "";
+        const std::string both = e > 0 ? parameters[i].name + " " + parameters[k].name + power
+                                       : parameters[i].name + "/" + parameters[k].name + power;
+        out.push_back(fmt::format("{} and {} only as {}", parameters[i].name, parameters[k].name, both));
+      }
+    }
+  }
+  return out;
+}
+
+Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise) {
+  Section section;
+  section.title = "Data health";
+  for (const FlightLog& log : logs)
+    for (const std::string& notice : log.notices) section.text += log.file + ": " + notice + "\n";
+  section.text += fmt::format("{:.1f} s in flight in {} piece{}, one row every {:.4g} s.", record.duration,
+                              record.arcs.size(), record.arcs.size() == 1 ? "" : "s", record.interval);
+  Table table{"Noise levels found", {"channel", "white noise", "samples"}, {}};
+  for (int c = 0; c < kChannels; ++c) {
+    std::size_t samples = 0;
+    for (const FlightArc& arc : record.arcs)
+      for (std::size_t i = 0; i < arc.rows(); ++i)
+        samples += std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(c)]);
+    if (samples > 0)
+      table.rows.push_back({channel_name(c), format_number(noise.sigma[static_cast<std::size_t>(c)], 3),
+                            std::to_string(samples)});
+  }
+  section.tables.push_back(table);
+  return section;
+}
+
+Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
+  Result result;
+  result.command = "flightlog";
+  const std::vector<double> p = starting_constants(vehicle, logs, result.warnings);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  for (const FlightLog& log : logs) {
+    result.inputs.push_back(log.file);
+    result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
+  }
+  result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
+  std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
+  if (!record.signals.commands)
+    std::erase_if(constants, [](const FreeConstant& c) {
+      return c.index == param::km || c.index == param::omega_m || c.index == param::zeta_m ||
+             c.index == param::dead_time || c.index == param::Omega_0;
+    });
+  const Theta theta(p, constants, record.logs, record.signals.rates);
+  FlightFitOptions fit_options;
+  fit_options.progress = options.progress;
+  const FlightFit fit = fit_flight(record, theta, fit_options);
+  result.parameters = flight_parameters(theta, fit, "flightlog");
+  warn_about(result, theta, fit);
+  result.fit["seconds"] = record.duration;
+  result.fit["steps"] = fit.steps;
+  result.fit["segment_seconds"] = fit.chunk_seconds;
+  result.fit["process_noise"] = {{"angular", std::sqrt(fit.noise.q_w)}, {"linear", std::sqrt(fit.noise.q_v)}};
+  nlohmann::ordered_json levels;
+  for (int c = 0; c < kChannels; ++c)
+    if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
+      levels[channel_name(c)] = fit.noise.sigma[static_cast<std::size_t>(c)];
+  result.fit["noise"] = levels;
+  const int n = theta.constants_count();
+  for (int i = 0; i < n; ++i) result.correlation_names.push_back(theta.name(i));
+  const VectorXd s = fit.covariance.diagonal().head(n).cwiseSqrt().cwiseInverse();
+  result.correlation = s.asDiagonal() * fit.covariance.topLeftCorner(n, n) * s.asDiagonal();
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < i; ++k)
+      if (std::abs(result.correlation(i, k)) > 0.95)
+        result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
+                                              theta.name(k), theta.name(i), result.correlation(i, k)));
+  result.sections.push_back(data_health(record, logs, fit.noise));
+  if (options.validate && record.duration > 6) {
+    const RecordSplit split = split_record(record, 0.7);
+    FlightFitOptions again = fit_options;
+    again.progress = nullptr;
+    again.noise = fit.noise;
+    again.chunk_seconds = fit.chunk_seconds;
+    again.estimate_noise = false;
+    const FlightFit training = fit_flight(split.training, theta, again);
+    FlightFit view = training;
+    view.noise = fit.noise;
+    VectorXd before = training.u;
+    before.head(n).setZero();  // the constants as stated, with the gyro biases of the fit
+    Section section;
+    section.title = "Held-out prediction";
+    section.text =
+        "Fitted to the first 70 % of each log, judged on the rest: the state is estimated from the past "
+        "only, then predicted.";
+    section.tables.push_back(validation_table(split.held_out, theta, before, view, result));
+    result.sections.push_back(section);
+  }
+  int known = 0;
+  for (const Parameter& q : result.parameters) known += q.identifiable;
+  result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight.", known,
+                               result.parameters.size(), record.duration);
+  return result;
+}
+
+}  // namespace ident

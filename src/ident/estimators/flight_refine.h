@@ -1,0 +1,44 @@
+// Refinement: all constants together from several logs, bench results as priors, and what these logs cannot
+// tell.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "ident/core/result.h"
+#include "ident/data/flight_log.h"
+#include "ident/estimators/flight_fit.h"
+#include "ident/estimators/flight_prediction.h"
+
+namespace ident {
+
+struct RefineOptions {
+  std::vector<std::string> free;  ///< further constants to estimate, by name
+  bool validate = true;           ///< prediction error on held-out flight, before and after
+  int bootstrap = 0;              ///< block bootstrap draws instead of the sandwich; 0: none
+  std::function<void(double)> progress;
+};
+
+/// `ident flightlog --refine`. Throws DataError when the logs hold nothing to estimate from.
+Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                     const RefineOptions& options = {});
+
+/// `ident flightlog`: the vehicle as stated against the logs over short windows, as [Phang] verifies his
+/// model: RMS, fit in percent and Theil's inequality coefficient per channel.
+Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
+
+/// Constants to start from where the vehicle file is silent, with what was assumed as warnings.
+std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                                       std::vector<Warning>& warnings);
+
+/// Shared by refinement and diagnosis: the estimates of a fit as parameters of a result.
+std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit, const std::string& source);
+
+/// What the data tell only in combination, in words ("kT and km only as kT km^2").
+std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
+                                      const std::vector<Parameter>& parameters);
+
+/// Data health: rates, arcs, noise levels, units and frames as they were decided.
+Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise);
+
+}  // namespace ident

@@ -1,0 +1,163 @@
+// Coordinates, priors and seeds of the shared unknowns.
+#include "ident/estimators/flight_theta.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/error.h"
+
+namespace ident {
+
+Theta::Theta(std::vector<double> p, std::vector<FreeConstant> constants, int logs, bool gyro,
+             double gyro_bias_std)
+    : p_(std::move(p)),
+      constants_(std::move(constants)),
+      logs_(logs),
+      gyro_(gyro),
+      gyro_bias_std_(gyro_bias_std) {
+  active_ = active_effects(p_);
+  for (const FreeConstant& c : constants_) {
+    p_[static_cast<std::size_t>(c.index)] = c.start;
+    for (const EffectEntry& e : catalogue())
+      if (c.index >= e.offset && c.index < e.offset + static_cast<int>(e.parameters.size()))
+        active_ |= mask_of(e.id);
+  }
+}
+
+std::string Theta::name(int i) const {
+  const int n = constants_count();
+  if (i < n) return constants_[static_cast<std::size_t>(i)].name;
+  return fmt::format("gyro bias {} of log {}", "xyz"[(i - n) % 3], (i - n) / 3 + 1);
+}
+
+double Theta::physical(const Eigen::VectorXd& u, int i) const {
+  if (i >= constants_count()) return gyro_bias_std_ * u[i];
+  const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
+  return c.positive ? c.start * std::exp(u[i]) : c.start + c.scale * u[i];
+}
+
+double Theta::slope(const Eigen::VectorXd& u, int i) const {
+  if (i >= constants_count()) return gyro_bias_std_;
+  const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
+  return c.positive ? c.start * std::exp(u[i]) : c.scale;
+}
+
+std::vector<double> Theta::p(const Eigen::VectorXd& u) const {
+  std::vector<double> p = p_;
+  for (int i = 0; i < constants_count(); ++i)
+    p[static_cast<std::size_t>(constants_[static_cast<std::size_t>(i)].index)] = physical(u, i);
+  return p;
+}
+
+std::array<double, 3> Theta::gyro_bias(const Eigen::VectorXd& u, int log) const {
+  std::array<double, 3> bias{};
+  for (int k = 0; k < 3 && gyro_; ++k)
+    bias[static_cast<std::size_t>(k)] = physical(u, constants_count() + 3 * log + k);
+  return bias;
+}
+
+std::vector<Seed> Theta::seeds(const Eigen::VectorXd& u, int log) const {
+  std::vector<Seed> seeds;
+  for (int i = 0; i < constants_count(); ++i)
+    seeds.push_back({constants_[static_cast<std::size_t>(i)].index, i, slope(u, i)});
+  for (int k = 0; k < 3 && gyro_; ++k)
+    seeds.push_back({kParameterCount + k, constants_count() + 3 * log + k, gyro_bias_std_});
+  return seeds;
+}
+
+PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
+  PriorTerms terms{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(size())};
+  for (int i = 0; i < size(); ++i) {
+    double std = gyro_bias_std_, value = 0.0;
+    if (i < constants_count()) {
+      const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
+      if (!c.prior_std) continue;
+      std = *c.prior_std, value = c.prior_value;
+    }
+    terms.residual[i] = (physical(u, i) - value) / std;
+    terms.slope[i] = slope(u, i) / std;
+  }
+  return terms;
+}
+
+double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p) {
+  const auto at = [&](int i) { return p[static_cast<std::size_t>(i)]; };
+  const double J = (at(param::Jxx) + at(param::Jyy)) / 2;
+  const double hover =
+      std::sqrt(at(param::m) * vehicle.g / (static_cast<double>(vehicle.rotors.size()) * at(param::kT)));
+  switch (index) {
+    case param::Jxy:
+    case param::Jxz:
+    case param::Jyz:
+      return 0.02 * J;
+    case param::Jp:
+      return 0.01 * J;
+    case param::alpha:
+      return 0.02;
+    case param::dead_time:
+      return 0.005;
+    case param::Omega_0:
+      return 0.1 * hover;
+    case param::Kdx:
+    case param::Kdy:
+    case param::Kdz:
+      return 0.1 * at(param::m);
+    default:
+      break;
+  }
+  // Effects: the size that gives about 1 % of weight (forces) or a like moment, whatever the vehicle's mass.
+  for (const EffectEntry& e : catalogue()) {
+    const int k = index - e.offset;
+    if (k < 0 || k >= static_cast<int>(e.parameters.size())) continue;
+    const EffectParameter& q = e.parameters[static_cast<std::size_t>(k)];
+    const double m = at(param::m) / 0.5, size = std::cbrt(m), speed = hover / 450.0;
+    if (q.unit == "kg/rad") return q.typical * m / speed;
+    if (q.unit == "N s^2/rad") return q.typical * m * size / speed;
+    if (q.unit == "kg" || q.unit == "kg/m" || q.unit == "N s^2/m^2") return q.typical * m;
+    if (q.unit == "kg m^2") return 0.01 * J;
+    if (q.unit == "m") return q.typical * size;
+    if (q.unit == "m^2") return q.typical * size * size;
+    return q.typical;
+  }
+  return std::max(std::abs(at(index)), 1e-12);
+}
+
+std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vector<double>& p,
+                                         const std::vector<std::string>& also) {
+  std::vector<FreeConstant> free;
+  const auto add = [&](const ParameterInfo& info) {
+    if (std::ranges::find(free, info.name, &FreeConstant::name) != free.end()) return;
+    FreeConstant c;
+    c.name = info.name;
+    c.index = info.index;
+    c.start = p[static_cast<std::size_t>(info.index)];
+    const bool diagonal = info.index == param::Jxx || info.index == param::Jyy || info.index == param::Jzz;
+    c.positive = (info.kind == ParameterKind::positive || diagonal) && c.start > 0;
+    c.scale = typical_scale(info.index, vehicle, p);
+    const auto known = vehicle.parameters.find(info.name);
+    if (known != vehicle.parameters.end() && known->second.std && *known->second.std > 0) {
+      c.prior_std = *known->second.std;
+      c.prior_value = known->second.value;
+    }
+    free.push_back(std::move(c));
+  };
+  for (const ParameterInfo& info : all_parameters()) {
+    const auto known = vehicle.parameters.find(info.name);
+    if (known != vehicle.parameters.end() && known->second.std && *known->second.std > 0) add(info);
+    const bool always = info.index == param::kT || info.index == param::kQ || info.index == param::km ||
+                        info.index == param::omega_m || info.index == param::zeta_m ||
+                        info.index == param::Jxx || info.index == param::Jyy || info.index == param::Jzz;
+    if (always && !(known != vehicle.parameters.end() && known->second.std && *known->second.std == 0))
+      add(info);
+  }
+  for (const std::string& name : also) {
+    const ParameterInfo* info = find_parameter(name);
+    if (!info) throw UsageError("there is no parameter '" + name + "'");
+    add(*info);
+  }
+  return free;
+}
+
+}  // namespace ident

@@ -1,0 +1,69 @@
+// The unknowns that all segments share: constants of the model in unconstrained coordinates, and gyro biases
+// per log.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ident/estimators/flight_kernel.h"
+
+namespace ident {
+
+/// One free constant. Positive ones move as value = start exp(u), others as value = start + scale u.
+struct FreeConstant {
+  std::string name;
+  int index = 0;  ///< place in the model's parameter vector
+  bool positive = false;
+  double start = 0.0, scale = 1.0;
+  std::optional<double> prior_std;  ///< about `prior_value`
+  double prior_value = 0.0;
+};
+
+struct PriorTerms {
+  Eigen::VectorXd residual;  ///< one per unknown, 0 without prior
+  Eigen::VectorXd slope;     ///< derivative with respect to its own unknown
+};
+
+class Theta {
+ public:
+  /// `p`: the model's constants; `logs`: number of logs, each with a gyro bias known to `gyro_bias_std`
+  /// (rad/s).
+  Theta(std::vector<double> p, std::vector<FreeConstant> constants, int logs, bool gyro,
+        double gyro_bias_std = 0.02);
+
+  int size() const { return static_cast<int>(constants_.size()) + (gyro_ ? 3 * logs_ : 0); }
+  int constants_count() const { return static_cast<int>(constants_.size()); }
+  const std::vector<FreeConstant>& constants() const { return constants_; }
+  std::string name(int i) const;
+
+  /// Physical value of unknown i, and its derivative with respect to u_i.
+  double physical(const Eigen::VectorXd& u, int i) const;
+  double slope(const Eigen::VectorXd& u, int i) const;
+
+  /// The model's constants at u, and the gyro bias of a log.
+  std::vector<double> p(const Eigen::VectorXd& u) const;
+  std::array<double, 3> gyro_bias(const Eigen::VectorXd& u, int log) const;
+  std::vector<Seed> seeds(const Eigen::VectorXd& u, int log) const;
+  PriorTerms prior(const Eigen::VectorXd& u) const;
+  EffectMask active() const { return active_; }
+
+ private:
+  std::vector<double> p_;
+  std::vector<FreeConstant> constants_;
+  int logs_;
+  bool gyro_;
+  double gyro_bias_std_;
+  EffectMask active_ = 0;
+};
+
+/// The constants of a vehicle that a refinement frees: those with a standard deviation or without a value
+/// that the model needs, as far as `signals` can involve them. `also` names further ones.
+std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vector<double>& p,
+                                         const std::vector<std::string>& also = {});
+
+/// Unit step of a constant: its typical size where its value may be zero.
+double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p);
+
+}  // namespace ident

@@ -1,0 +1,111 @@
+// Verification as in [Phang] section 5: short open-loop simulations against the log, channel by channel.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/format_number.h"
+#include "ident/estimators/flight_refine.h"
+
+namespace ident {
+namespace {
+
+struct Sums {
+  double error2 = 0, measured2 = 0, simulated2 = 0, mean = 0, spread2 = 0, n = 0;
+};
+
+std::string channel_unit(int c) {
+  if (c < kForce) return "rad/s";
+  if (c < kAttitude) return "m/s^2";
+  if (c < kVelocity) return "rad";
+  if (c < kPosition) return "m/s";
+  return c < kRotorChannel ? "m" : "rad/s";
+}
+
+}  // namespace
+
+Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon) {
+  Result result;
+  result.command = "flightlog";
+  const std::vector<double> p = starting_constants(vehicle, logs, result.warnings);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  for (const FlightLog& log : logs) {
+    result.inputs.push_back(log.file);
+    result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
+  }
+  result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
+  const Theta theta(p, {}, record.logs, record.signals.rates);
+  // States at the start of every window, from the log itself; the constants stay as stated.
+  const NoiseModel noise = initial_noise(record);
+  FlightSmoother smoother(record, theta, noise, horizon);
+  NoiseModel loose = noise;
+  loose.q_w *= 1e6, loose.q_v *= 1e6, loose.q_motor = record.signals.rotor_speeds ? 1e6 : 0.0;
+  smoother.set_noise(loose);
+  smoother.settle(Eigen::VectorXd::Zero(theta.size()), 4);
+  const auto residuals = smoother.residuals();
+  std::array<Sums, kChannels> sums;
+  std::array<Series, kChannels> measured, simulated;
+  std::vector<std::array<double, kChannels>> at;
+  for (std::size_t k = 0; k < smoother.chunks().size(); ++k) {
+    const ChunkPlace& place = smoother.chunks()[k];
+    const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+    for (std::size_t i = place.begin; i < place.end; ++i) {
+      for (std::size_t c = 0; c < kChannels; ++c) {
+        const double r = residuals[k][(i - place.begin) * kChannels + c] * noise.sigma[c];
+        if (!std::isfinite(r)) continue;
+        const double y = arc.y[i * kChannels + c];
+        Sums& s = sums[c];
+        s.error2 += r * r, s.measured2 += y * y, s.simulated2 += (y + r) * (y + r), s.mean += y, s.n += 1;
+        s.spread2 += y * y;
+        if (arc.log == 0) {
+          measured[c].x.push_back(arc.t[i]), measured[c].y.push_back(y);
+          simulated[c].x.push_back(arc.t[i]), simulated[c].y.push_back(y + r);
+        }
+      }
+    }
+  }
+  Section section;
+  section.title = "Simulated against measured";
+  section.text =
+      fmt::format("Open-loop simulations of {:.2g} s each, started at states fitted to the log.", horizon);
+  Table table{"", {"channel", "RMS error", "unit", "fit %", "Theil U"}, {}};
+  nlohmann::ordered_json channels;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    const Sums& s = sums[c];
+    if (s.n < 2) continue;
+    const int channel = static_cast<int>(c);
+    const double rms = std::sqrt(s.error2 / s.n), variance = s.spread2 - s.mean * s.mean / s.n;
+    const bool angle = channel >= kAttitude && channel < kVelocity;
+    const double fit = angle ? kNaN : 100 * (1 - std::sqrt(s.error2 / std::max(variance, 1e-300)));
+    const double theil =
+        angle ? kNaN : std::sqrt(s.error2) / (std::sqrt(s.measured2) + std::sqrt(s.simulated2));
+    table.rows.push_back({channel_name(channel), format_number(rms, 3), channel_unit(channel),
+                          format_number(fit, 3), format_number(theil, 3)});
+    nlohmann::ordered_json j{{"rms", rms}, {"unit", channel_unit(channel)}};
+    j["fit_percent"] = std::isfinite(fit) ? nlohmann::ordered_json(fit) : nlohmann::ordered_json(nullptr);
+    j["theil"] = std::isfinite(theil) ? nlohmann::ordered_json(theil) : nlohmann::ordered_json(nullptr);
+    channels[channel_name(channel)] = j;
+    if (angle) continue;
+    Plot plot;
+    plot.id = "verify_" + std::to_string(c);
+    plot.title = channel_name(channel) + ", measured and simulated";
+    plot.x_label = "time [s]", plot.y_label = channel_name(channel) + " [" + channel_unit(channel) + "]";
+    plot.kind = Plot::Kind::time_series;
+    measured[c].name = "measured", measured[c].style = Series::Style::measured;
+    simulated[c].name = "simulated", simulated[c].style = Series::Style::predicted;
+    plot.series = {measured[c], simulated[c]};
+    section.plots.push_back(plot);
+  }
+  section.tables.push_back(table);
+  result.fit["channels"] = channels;
+  result.fit["horizon"] = horizon;
+  result.fit["seconds"] = record.duration;
+  result.sections.push_back(data_health(record, logs, noise));
+  result.sections.push_back(section);
+  result.verdict =
+      fmt::format("The model as stated was run against {:.0f} s of flight in windows of {:.2g} s.",
+                  record.duration, horizon);
+  return result;
+}
+
+}  // namespace ident

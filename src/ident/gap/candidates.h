@@ -1,0 +1,39 @@
+// The causes that a diagnosis tries: effects (one entry for each rotor where it names one) and wrong
+// parameters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/estimators/flight_refine.h"
+
+namespace ident {
+
+/// A cause as directions of the extended problem.
+struct Candidate {
+  std::string name;             ///< rotor_drag, parameter:km
+  std::vector<int> directions;  ///< unknowns of the extended problem that it frees
+  int parameter = -1;           ///< the unknown whose prior it drops; -1 for an effect
+  int rotor = -1;               ///< 0 based, where the effect names one
+  bool positive = false;        ///< its first direction has a physical sign
+};
+
+/// Base constants followed by the directions of every effect, and the candidates over them.
+struct ExtendedProblem {
+  std::vector<FreeConstant> constants;
+  int base = 0;  ///< number of base constants
+  std::vector<Candidate> candidates;
+};
+
+/// `base` are the constants of the current model (effects already adopted included), `exclude` names of
+/// causes that must not be tried.
+ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,
+                                 const std::vector<FreeConstant>& base,
+                                 const std::vector<std::string>& exclude);
+
+/// Constants of an adopted cause in the full model (starting values in p units), with a payload's place free.
+/// `voltage`: the logs have a battery voltage.
+std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle& vehicle,
+                                       const std::vector<double>& p, bool voltage);
+
+}  // namespace ident

@@ -1,0 +1,274 @@
+// From the search to a verdict: where, which, how far, what else it could be.
+#include "ident/gap/diagnose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ident/core/format_number.h"
+#include "ident/estimators/flight_prediction.h"
+#include "ident/gap/gap_sections.h"
+#include "ident/gap/model_search.h"
+#include "ident/gap/residual_wrench.h"
+
+namespace ident {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
+constexpr double kMostlyClosed = 0.5;
+// Share of the explained excess that the generic rival may still predict before the catalogue is not enough.
+constexpr double kRivalShare = 0.25;
+constexpr double kSure = 0.8;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+struct Judged {
+  std::string status, sentence;
+  std::vector<std::string> effects, confused_with;
+  double remaining = kNaN;
+};
+
+// The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
+std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
+  std::vector<std::string> names;
+  const bool wind = std::ranges::any_of(adopted, [](const Candidate& c) { return c.name == "wind"; });
+  for (const Candidate& c : adopted) {
+    if (wind && (c.name == "rotor_drag" || c.name == "parasitic_drag")) continue;
+    if (std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
+  }
+  return names;
+}
+
+Judged judge(const SearchResult& search, const GapClosed& gap, const Eigen::VectorXd& rival_before,
+             const Eigen::VectorXd& rival_after, const ResidualWrench& before, const ResidualWrench& after) {
+  Judged out;
+  out.effects = names_of(search.best.adopted);
+  // What a generic regression still predicts, in units of the noise, against what there was to explain.
+  const Eigen::VectorXd e0 = before.rms().cwiseQuotient(before.noise).cwiseAbs2();
+  const Eigen::VectorXd e1 = after.rms().cwiseQuotient(after.noise).cwiseAbs2();
+  const double was = rival_before.dot(e0), left = rival_after.dot(e1);
+  const double worst_left = rival_after.maxCoeff();
+  if (out.effects.empty()) {
+    const bool structure = worst_left > 0.3 && left > 1.0;
+    out.status = structure ? "unknown" : "none";
+    out.sentence =
+        structure
+            ? "Something that no cause of the catalogue explains acts on this vehicle: the residual can be "
+              "predicted from the flight itself, but not by any single cause."
+            : "The model explains these logs down to the noise; no cause stands out.";
+    return out;
+  }
+  const bool remains = std::isfinite(gap.closed) && gap.closed < kMostlyClosed;
+  const bool rival = was > 0 && left > kRivalShare * was && worst_left > 0.2;
+  if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
+  if (remains || rival) {
+    out.status = "unknown";
+    out.confused_with = out.effects;
+    out.sentence =
+        fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
+                    fmt::join(out.effects, " with "),
+                    remains ? "most of the gap remains with it"
+                            : "a plain regression on the flight predicts what it leaves");
+    out.effects.clear();
+    return out;
+  }
+  // Other sets that explain it about as well.
+  double own = 0;
+  for (const WeighedSet& set : search.sets) {
+    std::set<std::string> names;
+    std::vector<Candidate> members;
+    for (const int m : set.members) members.push_back(search.problem.candidates[static_cast<std::size_t>(m)]);
+    for (const std::string& n : names_of(members)) names.insert(n);
+    if (names == std::set<std::string>(out.effects.begin(), out.effects.end())) {
+      own += set.probability;
+    } else if (set.probability > 0.05) {
+      for (const std::string& n : names)
+        if (std::ranges::find(out.effects, n) == out.effects.end() &&
+            std::ranges::find(out.confused_with, n) == out.confused_with.end())
+          out.confused_with.push_back(n);
+    }
+  }
+  out.status = own < kSure && !out.confused_with.empty() ? "ambiguous" : "identified";
+  if (out.status == "identified") out.confused_with.clear();
+  out.sentence = out.status == "identified"
+                     ? fmt::format("The gap is explained by {}.", fmt::join(out.effects, " and "))
+                     : fmt::format("The gap is explained by {}, but {} would explain it about as well.",
+                                   fmt::join(out.effects, " and "), fmt::join(out.confused_with, " or "));
+  if (std::isfinite(gap.closed) && gap.closed < 0.8)
+    out.sentence += fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining);
+  return out;
+}
+
+// Value, standard deviation and unit of each constant of an adopted effect, under the file format's name.
+Json adopted_parameters(const FittedModel& model, const Candidate& cause) {
+  Json j = Json::object();
+  const Theta& theta = *model.theta;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    std::string name = theta.constants()[static_cast<std::size_t>(i)].name;
+    double value = theta.physical(model.fit.u, i);
+    double std = std::abs(theta.slope(model.fit.u, i)) * std::sqrt(model.fit.covariance(i, i));
+    if (cause.parameter >= 0 ? i != cause.parameter : name.substr(0, name.find('.')) != cause.name) continue;
+    std::string unit = parameter_unit(name);
+    if (const auto at = name.find('@'); at != std::string::npos) {
+      if (cause.rotor + 1 != std::stoi(name.substr(at + 1))) continue;
+      name = name.substr(0, at);
+    }
+    if (name == "ground_effect.radius_sq") {
+      name = "ground_effect.radius", unit = "m";
+      value = std::sqrt(std::max(value, 1e-12)), std = std / (2 * value);
+    }
+    j[name] = {{"value", number(value)}, {"std", number(std)}, {"unit", unit}};
+  }
+  if (cause.rotor >= 0) j[cause.name + ".rotor"] = {{"value", cause.rotor + 1}, {"std", 0}, {"unit", "-"}};
+  return j;
+}
+
+Json candidates_json(const SearchResult& search, const GapClosed& gap) {
+  struct Entry {
+    double probability = 0, gain = 0;
+    Json limits = Json::object(), parameters = Json::object();
+    double closed = kNaN;
+  };
+  std::vector<std::pair<std::string, Entry>> list;
+  const double quantile = 3.63 + 1.28;  // 1 % family-wise over the catalogue, 90 % power
+  double top = 1e-9;
+  for (std::size_t c = 0; c < search.base_problem.candidates.size(); ++c) {
+    const Candidate& cause = search.base_problem.candidates[c];
+    auto at = std::ranges::find(list, cause.name, &std::pair<std::string, Entry>::first);
+    if (at == list.end()) at = list.insert(list.end(), {cause.name, Entry{}});
+    const SetGain set = gain_of(search.base_form, search.base_problem, {static_cast<int>(c)});
+    at->second.gain = std::max(at->second.gain, set.physical ? set.gain : 0.0);
+    top = std::max(top, at->second.gain);
+    const std::size_t many = cause.parameter >= 0 ? 1 : cause.directions.size();
+    for (std::size_t d = 0; d < many; ++d) {
+      const int i = cause.parameter >= 0 ? cause.parameter : cause.directions[d];
+      std::string name = search.base_problem.constants[static_cast<std::size_t>(i)].name;
+      if (name.substr(0, name.find('.')) != cause.name && cause.parameter < 0) continue;
+      name = name.substr(0, name.find('@'));
+      double limit = quantile * deviation_of(search.base_form, search.base_problem, static_cast<int>(c),
+                                             static_cast<int>(d));
+      if (name == "ground_effect.radius_sq") name = "ground_effect.radius", limit = std::sqrt(limit);
+      if (!at->second.limits.contains(name) || limit > at->second.limits[name].get<double>())
+        at->second.limits[name] = number(limit);
+    }
+  }
+  Json out = Json::array();
+  for (auto& [name, entry] : list) {
+    entry.probability = search.probability_of(name);
+    for (const Candidate& cause : search.best.adopted)
+      if (cause.name == name) entry.parameters = adopted_parameters(search.best, cause);
+    if (search.best.adopted.size() == 1 && search.best.adopted[0].name == name) entry.closed = gap.closed;
+    out.push_back({{"effect", name},
+                   {"probability", entry.probability},
+                   {"detection_limit", entry.limits},
+                   {"closed", number(entry.closed)},
+                   {"evidence", entry.gain},
+                   {"parameters", entry.parameters}});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Json& a, const Json& b) {
+    return std::pair(a["probability"].get<double>(), a["evidence"].get<double>()) >
+           std::pair(b["probability"].get<double>(), b["evidence"].get<double>());
+  });
+  return out;
+}
+
+Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
+  Vehicle out = vehicle;
+  const Theta& theta = *model.theta;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const std::string& name = theta.constants()[static_cast<std::size_t>(i)].name;
+    out.parameters[name] = {theta.physical(model.fit.u, i),
+                            std::abs(theta.slope(model.fit.u, i)) * std::sqrt(model.fit.covariance(i, i))};
+  }
+  return out;
+}
+
+}  // namespace
+
+Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
+  Diagnosis out;
+  Result& result = out.result;
+  result.schema = "ident.gap/1";
+  result.command = "gap";
+  const std::vector<double> p = starting_constants(vehicle, logs, result.warnings);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  for (const FlightLog& log : logs) {
+    result.inputs.push_back(log.file);
+    result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
+  }
+  result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
+  SearchOptions search_options{options.exclude, options.most_causes, options.progress};
+  const SearchResult search = search_causes(record, vehicle, p, search_options);
+  if (options.progress) options.progress(0.9, "held-out flight");
+
+  const ResidualWrench before = residual_wrench(record, *search.base.theta, search.base.fit);
+  const ResidualWrench after =
+      search.best.adopted.empty() ? before : residual_wrench(record, *search.best.theta, search.best.fit);
+  const Eigen::VectorXd rival_before = generic_rival(before),
+                        rival_after = search.best.adopted.empty() ? rival_before : generic_rival(after);
+
+  // Held out: both models fitted to the first 70 % of each log, judged on the rest under the final noise.
+  const RecordSplit split = split_record(record, 0.7);
+  Json horizons = Json::array();
+  GapClosed gap;
+  FittedModel base = search.base, best = search.best;
+  base.fit.noise = best.fit.noise;
+  base.fit.chunk_seconds = best.fit.chunk_seconds;
+  const FittedModel base_training = refitted(base, split.training, search.base.theta->p(search.base.fit.u));
+  const FittedModel best_training =
+      best.adopted.empty() ? base_training
+                           : refitted(best, split.training, search.best.theta->p(search.best.fit.u));
+  for (const double horizon : {0.1, 0.5, 1.0}) {
+    PredictionOptions windows;
+    windows.horizon = horizon;
+    // "Before" is the model as it was given: bench values, with the biases of the fit.
+    Eigen::VectorXd stated = base_training.fit.u;
+    const Theta given(p, base_training.constants, record.logs, record.signals.rates);
+    stated.head(given.constants_count()).setZero();
+    const auto a = predict_windows(split.held_out, given, stated, best.fit.noise, windows);
+    const auto b =
+        predict_windows(split.held_out, *best_training.theta, best_training.fit.u, best.fit.noise, windows);
+    const GapClosed one = gap_closed(a, b);
+    if (horizon == 0.5) gap = one;
+    horizons.push_back({{"horizon", horizon},
+                        {"before", number(one.before)},
+                        {"after", number(one.after)},
+                        {"noise_floor", number(one.floor)},
+                        {"closed", number(one.closed)},
+                        {"closed_ci95", {number(one.ci95[0]), number(one.ci95[1])}}});
+  }
+  const Judged verdict = judge(search, gap, rival_before, rival_after, before, after);
+  result.extra["verdict"] = {{"status", verdict.status},
+                             {"effects", verdict.effects},
+                             {"confused_with", verdict.confused_with},
+                             {"sentence", verdict.sentence}};
+  if (std::isfinite(verdict.remaining)) result.extra["verdict"]["remaining"] = verdict.remaining;
+  result.extra["where"] = where_json(before);
+  result.extra["candidates"] = candidates_json(search, gap);
+  result.extra["gap"] = {{"before", number(gap.before)},
+                         {"after", number(gap.after)},
+                         {"noise_floor", number(gap.floor)},
+                         {"closed", number(gap.closed)},
+                         {"closed_ci95", {number(gap.ci95[0]), number(gap.ci95[1])}},
+                         {"horizons", horizons}};
+  Json rival = Json::object();
+  for (Eigen::Index c = 0; c < rival_after.size(); ++c)
+    rival[after.names[static_cast<std::size_t>(c)]] = {{"before", rival_before[c]},
+                                                       {"after", rival_after[c]}};
+  result.extra["generic_rival"] = rival;
+  Json steps = Json::array();
+  for (const SearchStep& s : search.steps) steps.push_back({{"adopted", s.name}, {"gain", s.gain}});
+  result.extra["search"] = steps;
+  result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
+  result.verdict = verdict.sentence;
+  result.sections = gap_sections(result.extra, before, after);
+  result.sections.push_back(data_health(record, logs, search.best.fit.noise));
+  out.adopted = adopted_vehicle(vehicle, search.best);
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,32 @@
+// Why does the simulator not fly like the drone: where the gap lies, which cause explains it, how far it
+// closes.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ident/core/result.h"
+#include "ident/data/flight_log.h"
+#include "ident/model/vehicle.h"
+
+namespace ident {
+
+struct GapOptions {
+  std::vector<std::string> exclude;  ///< causes that must not be tried
+  int most_causes = 3;
+  std::function<void(double, const std::string&)> progress;
+};
+
+struct Diagnosis {
+  Result result;    ///< schema ident.gap/1
+  Vehicle adopted;  ///< the vehicle with refitted constants and the causes found
+};
+
+/// Throws DataError when the logs do not allow a diagnosis at all.
+Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                       const GapOptions& options = {});
+
+}  // namespace ident

@@ -1,0 +1,16 @@
+// The parts of a gap report, and the answer to "where".
+#pragma once
+
+#include "ident/core/result.h"
+#include "ident/gap/residual_wrench.h"
+
+namespace ident {
+
+/// `where` of the contract: channels ranked, regimes, bands and times with their share of the explainable
+/// residual.
+nlohmann::ordered_json where_json(const ResidualWrench& wrench);
+
+std::vector<Section> gap_sections(const nlohmann::ordered_json& found, const ResidualWrench& before,
+                                  const ResidualWrench& after);
+
+}  // namespace ident

@@ -1,0 +1,59 @@
+// Search for the set of causes: adopt the best, refit, look again; then weigh every alternative set.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "ident/gap/screen.h"
+
+namespace ident {
+
+/// A model with causes adopted, fitted.
+struct FittedModel {
+  std::vector<FreeConstant> constants;  ///< base, then those of adopted effects; priors as originally stated
+  std::vector<Candidate> adopted;
+  std::shared_ptr<Theta> theta;  ///< what was fitted: priors of adopted parameters dropped
+  FlightFit fit;
+};
+
+struct SearchStep {
+  std::string name;
+  double gain = 0.0;  ///< corrected for colour
+};
+
+/// Weight of a set of causes.
+struct WeighedSet {
+  std::vector<int> members;
+  double log_evidence = 0.0;
+  double probability = 0.0;
+};
+
+struct SearchResult {
+  FittedModel base, best;
+  ExtendedProblem problem;  ///< over the best model
+  QuadraticForm form;
+  ExtendedProblem base_problem;
+  QuadraticForm base_form;
+  std::vector<WeighedSet> sets;     ///< most probable first
+  std::vector<double> probability;  ///< of each candidate of `problem`, by name: see probability_of
+  std::vector<SearchStep> steps;
+
+  double probability_of(const std::string& name) const;
+};
+
+struct SearchOptions {
+  std::vector<std::string> exclude;
+  int most_causes = 3;
+  std::function<void(double, const std::string&)> progress;
+};
+
+SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
+                           const SearchOptions& options);
+
+/// The same model fitted to another record, noise given.
+FittedModel refitted(const FittedModel& model, const FlightRecord& record, const std::vector<double>& p);
+
+/// A cause with the direction of its rotor: "rotor_mismatch" and "rotor 2".
+std::string described(const Candidate& candidate);
+
+}  // namespace ident

@@ -1,0 +1,36 @@
+// What the model does not explain, as force and moment on the body and as rotor acceleration, over time.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "ident/estimators/flight_fit.h"
+
+namespace ident {
+
+/// One row for each chunk of the smoother: the residual of every channel, its noise, and where the vehicle
+/// was.
+struct ResidualWrench {
+  std::vector<std::string> names;  ///< Fx Fy Fz Mx My Mz rotor1..N, those that the signals allow
+  std::vector<double> t;
+  std::vector<int> log;
+  Eigen::MatrixXd residual;  ///< [chunk][channel], N, N m, rad/s^2
+  Eigen::VectorXd noise;     ///< standard deviation of a row of each channel for a perfect model
+  Eigen::MatrixXd features;  ///< [chunk][feature], inputs that a generic model may use
+  std::vector<std::string> feature_names;
+  /// Regime variables by name: airspeed, climb, tilt, rates, collective, height, voltage.
+  std::vector<std::pair<std::string, Eigen::VectorXd>> regimes;
+
+  /// rms of each channel, and max(0, rms^2/noise^2 - 1).
+  Eigen::VectorXd rms() const;
+  Eigen::VectorXd excess() const;
+};
+
+ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
+
+/// Share of each channel's variance that a ridge regression on the features predicts in blocks left out, at
+/// least 0.
+Eigen::VectorXd generic_rival(const ResidualWrench& wrench);
+
+}  // namespace ident

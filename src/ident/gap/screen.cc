@@ -1,0 +1,203 @@
+// The quadratic form over all causes, and gains of sets of them by linear algebra.
+#include "ident/gap/screen.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Solved {
+  double drop = 0.0;
+  VectorXd step;
+};
+
+// Minimum over the unknowns `free`, those in `fixed` (index, value) held there, the rest at zero.
+Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
+               const std::vector<std::pair<int, double>>& fixed, const std::vector<int>& without_prior) {
+  const Eigen::Index n = f.g.size();
+  VectorXd info = f.prior_info, g = f.g + f.prior_g;
+  for (const int i : without_prior) info[i] *= 1e-4, g[i] -= f.prior_g[i] * (1 - 1e-4);
+  VectorXd d = VectorXd::Zero(n);
+  for (const auto& [i, x] : fixed) d[i] = x;
+  const VectorXd Hd = f.S * d + info.cwiseProduct(d);
+  const auto m = static_cast<Eigen::Index>(free.size());
+  MatrixXd M(m, m);
+  VectorXd r(m);
+  for (Eigen::Index a = 0; a < m; ++a) {
+    const int i = free[static_cast<std::size_t>(a)];
+    r[a] = g[i] + Hd[i];
+    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = f.S(i, free[static_cast<std::size_t>(b)]);
+    M(a, a) += info[i];
+  }
+  const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
+  scaled.diagonal().array() += 1e-10;
+  const VectorXd x = -(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(s.asDiagonal() * r));
+  Solved out;
+  for (Eigen::Index a = 0; a < m; ++a) d[free[static_cast<std::size_t>(a)]] = x[a];
+  out.step = d;
+  out.drop = -(2 * g.dot(d) + d.dot(f.S * d) + info.cwiseProduct(d).dot(d));
+  return out;
+}
+
+std::vector<int> base_unknowns(const QuadraticForm& f, const ExtendedProblem& problem) {
+  std::vector<int> free;
+  for (int i = 0; i < problem.base; ++i)
+    if (problem.constants[static_cast<std::size_t>(i)].name.find('.') == std::string::npos) free.push_back(i);
+  for (int i = f.constants; i < f.g.size(); ++i) free.push_back(i);
+  return free;
+}
+
+}  // namespace
+
+QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,
+                                   const ExtendedProblem& problem) {
+  QuadraticForm form;
+  std::vector<FreeConstant> constants = problem.constants;
+  for (int i = 0; i < problem.base; ++i)
+    constants[static_cast<std::size_t>(i)].start = fitted.physical(fit.u, i);
+  const Theta theta(fitted.p(fit.u), constants, record.logs, record.signals.rates);
+  FlightSmoother smoother(record, theta, fit.noise, fit.chunk_seconds);
+  smoother.set_states(fit.smoother->states());
+  VectorXd u = VectorXd::Zero(theta.size());
+  const int biases = theta.size() - theta.constants_count();
+  u.tail(biases) = fit.u.tail(biases);
+  smoother.linearize(u);
+  smoother.accept();
+  const ReducedSystem system = smoother.linearize(u);
+  smoother.accept();
+  form.cost0 = system.cost;
+  form.g = system.g;
+  form.S = system.S;
+  form.base = problem.base;
+  form.constants = theta.constants_count();
+  const PriorTerms prior = theta.prior(u);
+  form.prior_info = prior.slope.cwiseAbs2();
+  form.prior_g = prior.slope.cwiseProduct(prior.residual);
+  form.null = VectorXd::Zero(theta.size());
+  for (int i = 0; i < form.constants; ++i) {
+    const FreeConstant& c = constants[static_cast<std::size_t>(i)];
+    if (c.name.find('.') == std::string::npos) continue;
+    form.null[i] = (find_parameter(c.name)->null_value - c.start) / c.scale;
+  }
+  // Variance of the scores over blocks, each projected on the base, over what white residuals would give.
+  std::vector<MatrixXd> information;
+  const MatrixXd scores = smoother.block_scores(2.0, &information);
+  if (scores.cols() < 8) return form;
+  const std::vector<int> base = base_unknowns(form, problem);
+  const auto m = static_cast<Eigen::Index>(base.size());
+  MatrixXd M(m, m), C(m, theta.size());
+  for (Eigen::Index a = 0; a < m; ++a) {
+    const int i = base[static_cast<std::size_t>(a)];
+    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = form.S(i, base[static_cast<std::size_t>(b)]);
+    M(a, a) += form.prior_info[i] + 1e-12 * (1 + M(a, a));
+    C.row(a) = form.S.row(i);
+  }
+  const MatrixXd project = Eigen::LDLT<MatrixXd>(M).solve(C);
+  MatrixXd P = MatrixXd::Identity(theta.size(), form.constants);
+  for (int i = 0; i < form.constants; ++i)
+    for (Eigen::Index a = 0; a < m; ++a)
+      if (base[static_cast<std::size_t>(a)] != i) P(base[static_cast<std::size_t>(a)], i) -= project(a, i);
+  form.scores = P.transpose() * scores;
+  for (const MatrixXd& F : information) form.information.push_back(P.transpose() * (F * P));
+  return form;
+}
+
+double stretch_of(const QuadraticForm& form, const std::vector<int>& directions) {
+  const auto k = static_cast<Eigen::Index>(directions.size());
+  const auto blocks = static_cast<Eigen::Index>(form.information.size());
+  if (k == 0 || blocks < 8) return 1.0;
+  const auto part = [&](const MatrixXd& F) {
+    MatrixXd out(k, k);
+    for (Eigen::Index a = 0; a < k; ++a)
+      for (Eigen::Index b = 0; b < k; ++b)
+        out(a, b) = F(directions[static_cast<std::size_t>(a)], directions[static_cast<std::size_t>(b)]);
+    return out;
+  };
+  MatrixXd total = MatrixXd::Zero(k, k), s(k, blocks);
+  for (Eigen::Index b = 0; b < blocks; ++b) total += part(form.information[static_cast<std::size_t>(b)]);
+  for (Eigen::Index a = 0; a < k; ++a) s.row(a) = form.scores.row(directions[static_cast<std::size_t>(a)]);
+  const VectorXd d = total.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  MatrixXd scaled = d.asDiagonal() * total * d.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  const Eigen::LDLT<MatrixXd> solver(scaled);
+  const VectorXd size = -(d.asDiagonal() * solver.solve(d.asDiagonal() * VectorXd(s.rowwise().sum())));
+  MatrixXd left(k, blocks);
+  for (Eigen::Index b = 0; b < blocks; ++b)
+    left.col(b) = d.asDiagonal() * (s.col(b) + part(form.information[static_cast<std::size_t>(b)]) * size);
+  const double n = static_cast<double>(blocks);
+  return std::clamp((solver.solve(left * left.transpose())).trace() / static_cast<double>(k) * n / (n - 1),
+                    1.0, 100.0);
+}
+
+SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& members) {
+  const std::vector<int> base = base_unknowns(form, problem);
+  std::vector<int> free = base, dropped;
+  std::vector<bool> on(static_cast<std::size_t>(form.constants), false);
+  SetGain out;
+  out.members = members;
+  for (const int c : members) {
+    const Candidate& candidate = problem.candidates[static_cast<std::size_t>(c)];
+    if (candidate.parameter >= 0) {
+      dropped.push_back(candidate.parameter);
+      out.degrees += 1;
+    }
+    for (const int i : candidate.directions) {
+      if (on[static_cast<std::size_t>(i)]) continue;
+      on[static_cast<std::size_t>(i)] = true;
+      free.push_back(i);
+      out.degrees += 1;
+    }
+  }
+  // Adopted effects that are not members go back to their null values.
+  std::vector<std::pair<int, double>> off, all_off;
+  for (int i = 0; i < form.constants; ++i) {
+    if (form.null[i] == 0) continue;
+    all_off.emplace_back(i, form.null[i]);
+    if (!on[static_cast<std::size_t>(i)]) off.emplace_back(i, form.null[i]);
+  }
+  const Solved with = minimum(form, free, off, dropped), without = minimum(form, base, all_off, {});
+  out.gain = with.drop - without.drop;
+  out.step = with.step;
+  for (const int c : members) {
+    const Candidate& candidate = problem.candidates[static_cast<std::size_t>(c)];
+    if (candidate.positive && !candidate.directions.empty()) {
+      const int i = candidate.directions[0];
+      if (with.step[i] - form.null[i] < 0) out.physical = false;
+    }
+  }
+  return out;
+}
+
+double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, int candidate, int direction) {
+  const Candidate& c = problem.candidates[static_cast<std::size_t>(candidate)];
+  const int target = c.parameter >= 0 ? c.parameter : c.directions[static_cast<std::size_t>(direction)];
+  std::vector<int> free = base_unknowns(form, problem);
+  if (c.parameter < 0) free.insert(free.end(), c.directions.begin(), c.directions.end());
+  const auto m = static_cast<Eigen::Index>(free.size());
+  MatrixXd M(m, m);
+  Eigen::Index at = 0;
+  for (Eigen::Index a = 0; a < m; ++a) {
+    const int i = free[static_cast<std::size_t>(a)];
+    if (i == target) at = a;
+    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = form.S(i, free[static_cast<std::size_t>(b)]);
+    M(a, a) += c.parameter == i ? 1e-4 * form.prior_info[i] : form.prior_info[i];
+  }
+  const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
+  scaled.diagonal().array() += 1e-10;
+  const double v = Eigen::LLT<MatrixXd>(scaled).solve(VectorXd::Unit(m, at))[at] * s[at] * s[at];
+  const double scale = problem.constants[static_cast<std::size_t>(target)].positive
+                           ? problem.constants[static_cast<std::size_t>(target)].start
+                           : problem.constants[static_cast<std::size_t>(target)].scale;
+  return std::sqrt(std::max(v, 0.0) *
+                   stretch_of(form, c.parameter >= 0 ? std::vector<int>{target} : c.directions)) *
+         std::abs(scale);
+}
+
+}  // namespace ident

@@ -1,0 +1,45 @@
+// All causes at once: the likelihood as a quadratic form over every cause, and what each set of causes would
+// gain.
+#pragma once
+
+#include "ident/gap/candidates.h"
+
+namespace ident {
+
+/// cost(d) = cost0 + 2 g'd + d'S d over the extended unknowns d (gyro biases last), priors of the base not
+/// included.
+struct QuadraticForm {
+  double cost0 = 0.0;
+  Eigen::VectorXd g, prior_g, prior_info,
+      null;  ///< null: step that takes an adopted effect back to its null value
+  Eigen::MatrixXd S;
+  Eigen::MatrixXd scores;                    ///< [constant][block], base projected out
+  std::vector<Eigen::MatrixXd> information;  ///< of each block, constants x constants, base projected out
+  int base = 0, constants = 0;
+};
+
+/// Linearises everything at a fit. The first `problem.base` constants must be those of the fit, at its
+/// values.
+QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,
+                                   const ExtendedProblem& problem);
+
+/// By how much coloured residuals, or a size that changes from block to block, inflate what these directions
+/// gain: variance of their block scores, less the best common size, over what white residuals would give; 1
+/// or more.
+double stretch_of(const QuadraticForm& form, const std::vector<int>& directions);
+
+/// What a set of causes gains over a model with the base constants alone.
+struct SetGain {
+  std::vector<int> members;  ///< candidates
+  double gain = 0.0;         ///< fall of the cost (twice the log likelihood)
+  double degrees = 0.0;      ///< directions freed
+  bool physical = true;      ///< signs as they must be
+  Eigen::VectorXd step;      ///< of all unknowns at the optimum of the quadratic form
+};
+SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& members);
+
+/// Standard deviation of one direction of a candidate, everything of the base free; coloured residuals
+/// counted.
+double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, int candidate, int direction);
+
+}  // namespace ident
