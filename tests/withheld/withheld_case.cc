@@ -59,7 +59,7 @@ std::vector<Channels> signatures(const Case& c, Prediction& predict, bool with_c
   for (std::size_t i = 0; i < c.withheld.size(); ++i) {
     const Member& member = c.withheld[i].member;
     if (member.form == "outside") {
-      columns.push_back(predict.recorded() - whole);
+      columns.push_back(predict.recorded() - without);
     } else if (!member.wrong_parameter.empty()) {
       Vehicle v = c.vehicle;
       base_parameter(v, member.wrong_parameter) = c.known.at(member.wrong_parameter).value;
