@@ -27,7 +27,7 @@ KnownBefore draw_known_before(const Vehicle& v, Random& random) {
 
 void make_wrong(const Vehicle& v, const Member& member, double size, KnownBefore* known) {
   Stated& stated = known->at(member.wrong_parameter);
-  const double truth = base_parameter(v, member.wrong_parameter), share = stated.std / truth;
+  const double truth = base_parameter(v, member.wrong_parameter), share = stated.std / stated.value;
   stated.value = truth * std::exp(member.wrong_reach * size);
   stated.std = share * stated.value;
 }
