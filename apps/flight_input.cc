@@ -45,7 +45,7 @@ FlightInput flight_input(const FlightOptions& options, Context& context) {
     }
     input.logs.push_back(read_flight_log(log.file, input.vehicle, map));
     for (const std::string& notice : input.logs.back().notices)
-      context.notices.push_back(log.file + ": " + notice);
+      context.notices.push_back(notice);
   }
   return input;
 }

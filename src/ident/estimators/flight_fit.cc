@@ -180,6 +180,8 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   double chunk =
       options.chunk_seconds > 0 ? options.chunk_seconds : std::clamp(8 * record.interval, 0.05, 0.25);
   auto smoother = std::make_shared<FlightSmoother>(record, theta, noise, chunk, options.threads);
+  const double huber = options.robust ? 4.0 : 1e9;
+  smoother->set_huber(huber);
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 2);
   u = minimise_shared(*smoother, u, 1e-4, 8, &fit.steps);
@@ -192,6 +194,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       noise = smoother->noise();
       chunk = wanted;
       smoother = std::make_shared<FlightSmoother>(record, theta, noise, chunk, options.threads);
+      smoother->set_huber(huber);
       smoother->settle(u, 2);
     }
     u = minimise_shared(*smoother, u, 1e-5, 3, &fit.steps);

@@ -14,6 +14,7 @@ struct FlightFitOptions {
   bool estimate_noise = true;
   std::optional<NoiseModel> noise;  ///< to start from
   int noise_rounds = 6;
+  bool robust = true;          ///< count gross errors linearly
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-9;
   int threads = 0;

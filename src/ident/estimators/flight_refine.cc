@@ -173,7 +173,7 @@ Section data_health(const FlightRecord& record, std::span<const FlightLog> logs,
   Section section;
   section.title = "Data health";
   for (const FlightLog& log : logs)
-    for (const std::string& notice : log.notices) section.text += log.file + ": " + notice + "\n";
+    for (const std::string& notice : log.notices) section.text += notice + "\n";
   section.text += fmt::format("{:.1f} s in flight in {} piece{}, one row every {:.4g} s.", record.duration,
                               record.arcs.size(), record.arcs.size() == 1 ? "" : "s", record.interval);
   Table table{"Noise levels found", {"channel", "white noise", "samples"}, {}};

@@ -65,6 +65,7 @@ ChunkTask FlightSmoother::task(std::size_t k, const VectorXd& u, const std::vect
   task.begin = place.begin, task.end = place.end, task.rows = arc.rows();
   task.t = arc.t.data(), task.y = arc.y.data(), task.q = arc.q.data();
   task.shift = shift_;
+  task.huber = huber_;
   task.x0 = trial_[k];
   return task;
 }

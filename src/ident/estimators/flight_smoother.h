@@ -70,6 +70,8 @@ class FlightSmoother {
   void set_noise(const NoiseModel& noise);
   /// A delay of rates and attitude about which to linearise, s.
   void set_shift(double shift) { shift_ = shift; }
+  /// Residuals beyond this many standard deviations count linearly.
+  void set_huber(double huber) { huber_ = huber; }
 
   /// Residual moments for re-estimating the noise, at the accepted states.
   Moments moments();
@@ -107,7 +109,7 @@ class FlightSmoother {
   NoiseModel noise_;
   double chunk_seconds_;
   int threads_;
-  double shift_ = 0.0;
+  double shift_ = 0.0, huber_ = 4.0;
   std::vector<ChunkPlace> places_;
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
   std::vector<ChunkResult> results_;
