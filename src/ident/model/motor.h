@@ -86,9 +86,14 @@ class HeldCommand {
  public:
   HeldCommand() = default;
   /// `t` strictly increasing, `delta` of the same length; held before the first and after the last.
-  HeldCommand(std::vector<double> t, std::vector<double> delta)
-      : t_(std::move(t)), delta_(std::move(delta)), sum_(t_.size(), 0.0) {
-    for (std::size_t i = 1; i < t_.size(); ++i) sum_[i] = sum_[i - 1] + delta_[i - 1] * (t_[i] - t_[i - 1]);
+  HeldCommand(const std::vector<double>& t, const std::vector<double>& delta) {
+    for (std::size_t i = 0; i < t.size(); ++i) append(t[i], delta[i]);
+  }
+
+  /// One more sample, later than all before.
+  void append(double t, double delta) {
+    sum_.push_back(t_.empty() ? 0.0 : sum_.back() + delta_.back() * (t - t_.back()));
+    t_.push_back(t), delta_.push_back(delta);
   }
 
   template <class S>
