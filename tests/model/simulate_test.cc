@@ -21,6 +21,17 @@ Vehicle agile_vehicle() {
     if (const Vehicle v = random_vehicle(seed); v.value("omega_m") > 30) return v;
 }
 
+TEST(Simulate, OneHundredRandomVehiclesFlyTheMixedScenario) {
+  SimulationOptions options = quick("mixed", 40);
+  options.longest_step = 0.0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Vehicle vehicle = random_vehicle(seed);
+    const SimulatedFlight flight = simulate_flight(vehicle, options);
+    EXPECT_GT(flight.lowest, 0.2) << vehicle.name;
+    EXPECT_LT(flight.furthest, 0.8) << vehicle.name;
+  }
+}
+
 TEST(Simulate, TheSameSeedGivesTheSameLogAndAnotherSeedAnotherOne) {
   SimulationOptions options = quick("mixed", 5);
   const Vehicle vehicle = agile_vehicle();

@@ -88,7 +88,7 @@ void Scenario::plan_tones(const Plant& plant, const Trim& trim, double rate, std
   const std::size_t rotors = trim.Omega.size();
   const double w = plant.constant(param::omega_m), zeta = plant.constant(param::zeta_m);
   const auto amplitude = [&](std::size_t n, double hertz, double angle) {
-    const double omega = 2 * pi * hertz, p = agility_.attitude_pole;
+    const double omega = 2 * pi * hertz, p = agility_.attitude_bandwidth;
     const double x = omega / w;
     const double response = 1.0 / std::hypot(1.0 - x * x, 2 * zeta * x);
     const double turn = trim.effect.col(static_cast<Eigen::Index>(n)).head<2>().norm() * 2 * trim.Omega[n] *
@@ -127,7 +127,7 @@ const Scenario::Leg* Scenario::leg_at(double t) const {
 // To and fro: pairs of moves, each as quick as the vehicle may, with a rest after each.
 Scenario::Pose Scenario::shuttle(const Leg& leg, double s) const {
   const bool turning = leg.kind == Kind::yaw, vertical = leg.kind == Kind::vertical;
-  const double pole = turning ? agility_.yaw_pole : vertical ? agility_.lift_pole : agility_.position_pole;
+  const double pole = turning ? agility_.yaw_bandwidth : vertical ? agility_.lift_bandwidth : agility_.position_bandwidth;
   const int moves = 4 * std::max(1, static_cast<int>(leg.duration / (4 * std::max(3.0 / pole, 1.5))));
   const double each = leg.duration / moves, moving = 0.65 * each;
   const double most = turning    ? agility_.yaw_acceleration
@@ -152,7 +152,7 @@ Scenario::Pose Scenario::shuttle(const Leg& leg, double s) const {
 // North A sin(w s), east A/2 sin(2 w s); accelerations up to 2 A w^2, speeds up to 1.4 A w.
 Scenario::Pose Scenario::eight(const Leg& leg, double s) const {
   const double ramp = 0.25 * leg.duration;
-  double w = std::min(1.2, 1.2 * agility_.position_pole);
+  double w = std::min(1.2, 1.2 * agility_.position_bandwidth);
   w = 2 * pi * std::max(1.0, std::round(w * leg.duration / (2 * pi))) / leg.duration;
   const double A = std::min(0.45 * agility_.tilt_acceleration / (w * w), 3.5 / (1.4 * w));
   const double size = A * envelope(s, leg.duration, ramp);

@@ -43,7 +43,7 @@ class FlightLoop {
       : options_(options),
         plant_(vehicle),
         trim_(hover_trim(plant_, Scenario::kHeight)),
-        controller_(plant_, trim_, 1.0 / options.rate),
+        controller_(plant_, trim_, Scenario::kHeight, 1.0 / options.rate),
         scenario_(options.scenario, options.duration, plant_, trim_, controller_.agility(), options.rate,
                   options.seed),
         random_(options.seed),
@@ -119,6 +119,7 @@ class FlightLoop {
     result_.truth.push_back(plant_.state());
     result_.furthest = std::max(result_.furthest, (to.x_W - plant_.state().body.x_W).norm());
     plant_.command(t, delta);
+    controller_.given(delta);
     if (has_battery()) discharge(t + interval);
     if (options_.turbulence > 0) {
       air_.step(interval);
