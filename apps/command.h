@@ -27,14 +27,12 @@ namespace ident::app {
 /// What a subcommand is given, and where it leaves what is not part of the result.
 struct Context {
   /// Further files that were read (vehicle, map); those in `Result::inputs` count anyway. Hashes go to the
-  /// report.
+  /// report. With the campaign's `ident.yaml` among them the result is kept for `ident report`.
   std::vector<std::string> used;
   /// Decisions worth telling (separator, units); shown on stderr, in JSON as `notices`.
   std::vector<std::string> notices;
   /// Files to write. They appear together after the command has succeeded, or not at all.
   Outputs outputs;
-  /// In a folder with `ident.yaml`: whether the result belongs to that campaign, for `ident report`.
-  bool belongs_to_campaign = true;
 };
 
 /// A result and the exit status that goes with it (not `done` only where the finding itself is the status).

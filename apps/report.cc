@@ -48,7 +48,6 @@ Action report_command(CLI::App& cli) {
   examples(cli, {{"ident report", "all results of the campaign in this folder, as report.html and report.md"},
                  {"ident report --vehicle falcon.yaml", "the parameters of a file as a table"}});
   return [options](Context& context) -> Outcome {
-    context.belongs_to_campaign = false;
     if (!options->vehicle.empty()) return vehicle_summary(read_vehicle(options->vehicle));
     return report_campaign(*options, context);
   };

@@ -55,9 +55,9 @@ std::string report_content(const Result& result, const std::string& path) {
   return form == ReportForm::markdown ? render_markdown(result) : render_html(result);
 }
 
-/// Keeps the result beside `ident.yaml`, where `ident report` finds it.
+/// Keeps the result of a command that read `ident.yaml` beside it, where `ident report` finds it.
 void keep_in_campaign(const Result& result, Context& context) {
-  if (!context.belongs_to_campaign || !fs::exists("ident.yaml")) return;
+  if (std::ranges::count(context.used, "ident.yaml") == 0) return;
   const std::string path = stored_result_path(".", result);
   std::error_code failed;
   fs::create_directories(fs::path(path).parent_path(), failed);

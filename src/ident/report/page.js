@@ -39,7 +39,9 @@
   const decoded = page.arrays.map(() => null);
   function vector(index) {
     if (!decoded[index]) {
-      const bytes = Uint8Array.from(atob(page.arrays[index]), (c) => c.charCodeAt(0));
+      const text = atob(page.arrays[index]);
+      const bytes = new Uint8Array(text.length);
+      for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
       decoded[index] = new Float32Array(bytes.buffer);
     }
     return decoded[index];
@@ -56,7 +58,7 @@
       if (s.style === "band") columns.push({ x: s.x, y: gaps(vector(s.y2)) });
     });
     const axes = [...new Set(columns.map((c) => c.x))];
-    const shifted = new Map(axes.map((x) => [x, Float64Array.from(vector(x), (t) => t + plot.origin)]));
+    const shifted = new Map(axes.map((x) => [x, new Float64Array(vector(x)).map((t) => t + plot.origin)]));
     if (axes.length === 1) return [shifted.get(axes[0]), ...columns.map((c) => c.y)];
     return uPlot.join(columns.map((c) => [shifted.get(c.x), c.y]));
   }
@@ -117,7 +119,8 @@
       if (range) this.zoom(range);
       this.box.append(this.reset);
       this.box.classList.add("live");
-      this.box.dataset.milliseconds = (performance.now() - start).toFixed(0);
+      // uPlot draws in a microtask of its own, queued before this one.
+      queueMicrotask(() => { this.box.dataset.milliseconds = (performance.now() - start).toFixed(0); });
     }
     get whole() { return [this.data[0][0], this.data[0][this.data[0].length - 1]]; }
     // What is shown, null for the whole record.

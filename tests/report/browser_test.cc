@@ -1,0 +1,195 @@
+// Reports in a real browser: no errors, plots drawn, zoom, dark mode, phone, paper.
+#include "support/browser.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "ident/report/report.h"
+#include "support/sample_results.h"
+
+namespace ident::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReportInBrowser : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Browser::available()) GTEST_SKIP() << "chromium is not installed (tests/run.sh installs it)";
+    folder_ =
+        fs::path(::testing::TempDir()) /
+        (std::string("ident-report-") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    browser_ = std::make_unique<Browser>();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void open(const std::string& html) {
+    const fs::path page = folder_ / "page.html";
+    std::ofstream(page, std::ios::binary) << html;
+    browser_->open(page);
+  }
+
+  nlohmann::json value(const std::string& expression) { return browser_->evaluate(expression); }
+
+  /// Scrolls through the page, so that every plot comes into view, then back to the top.
+  void see_everything() {
+    value(R"((async () => {
+      const pause = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 40)));
+      for (let y = 0; y <= document.body.scrollHeight; y += 400) {
+        scrollTo({ top: y, behavior: "instant" });
+        await pause();
+      }
+      scrollTo({ top: 0, behavior: "instant" });
+      await pause();
+    })())");
+  }
+
+  static std::string script(const std::string& name) {
+    std::ifstream file(fs::path(IDENT_SOURCE_DIR) / "tests/report" / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  void wait_a_moment() { value("new Promise((done) => setTimeout(done, 150))"); }
+
+  fs::path folder_;
+  std::unique_ptr<Browser> browser_;
+};
+
+std::string campaign_page() {
+  const std::array results{sample_parameter_result(), sample_gap_result()};
+  return render_html("falcon", results);
+}
+
+/// JavaScript: how many colours a canvas shows, 1 when it is empty.
+constexpr const char* kColours = R"((() => [...document.querySelectorAll("canvas")].map((canvas) => {
+  const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  const seen = new Set();
+  for (let i = 0; i < pixels.length; i += 4) seen.add(pixels.slice(i, i + 4).join());
+  return seen.size;
+}))())";
+
+TEST_F(ReportInBrowser, OpensWithoutErrorsAndDrawsEveryTimeSeries) {
+  open(campaign_page());
+  see_everything();
+  EXPECT_TRUE(browser_->errors().empty()) << browser_->errors().front();
+  EXPECT_EQ(value("document.querySelectorAll('.chart:not(.live)').length"), 0);
+  const nlohmann::json colours = value(kColours);
+  ASSERT_EQ(colours.size(), 2U);
+  for (const auto& count : colours) EXPECT_GT(count, 20);
+}
+
+TEST_F(ReportInBrowser, ZoomsAllPlotsOfASectionTogetherAndBack) {
+  open(render_html(sample_parameter_result()));
+  see_everything();
+  const auto visible_resets = [&] {
+    return value("document.querySelectorAll('.reset:not([hidden])').length");
+  };
+  EXPECT_EQ(visible_resets(), 0);
+  value("document.querySelector('.chart').scrollIntoView({ block: 'center', behavior: 'instant' })");
+  const nlohmann::json box = value("document.querySelector('.u-over').getBoundingClientRect().toJSON()");
+  const double left = box.at("left"), width = box.at("width"), y = box.at("top").get<double>() + 60;
+  const auto last_time = "document.querySelector('.u-legend .u-value').textContent";
+
+  browser_->move_mouse(left + width - 3, y);
+  wait_a_moment();
+  EXPECT_NEAR(std::stod(value(last_time).get<std::string>()), 20, 0.2);
+  EXPECT_NE(value("document.querySelectorAll('.u-legend')[1].querySelectorAll('.u-value')[4].textContent"),
+            "--")
+      << "the cursor is not shared";
+
+  browser_->drag(left + 0.25 * width, left + 0.5 * width, y);
+  wait_a_moment();
+  EXPECT_EQ(visible_resets(), 2);
+  browser_->move_mouse(left + width - 3, y);
+  wait_a_moment();
+  EXPECT_NEAR(std::stod(value(last_time).get<std::string>()), 10, 0.2);
+
+  value("document.querySelectorAll('.reset')[1].click()");
+  wait_a_moment();
+  EXPECT_EQ(visible_resets(), 0);
+  EXPECT_TRUE(browser_->errors().empty()) << browser_->errors().front();
+}
+
+TEST_F(ReportInBrowser, DrawsSixHundredThousandPointsWithinASecond) {
+  open(render_html(large_result()));
+  see_everything();
+  EXPECT_EQ(value("document.querySelectorAll('.chart.live').length"), 1);
+  EXPECT_LT(browser_->busy_seconds(), 1.0)
+      << "by the clock drawing took " << value("document.querySelector('.chart').dataset.milliseconds")
+      << " ms";
+}
+
+TEST_F(ReportInBrowser, KeepsContrastInLightAndDark) {
+  const std::string poor_contrast = script("poor_contrast.js");
+  for (const bool dark : {false, true}) {
+    browser_->set_window(1300, 900, dark);
+    open(campaign_page());
+    EXPECT_EQ(value(poor_contrast), nlohmann::json::array()) << (dark ? "dark" : "light");
+    const auto background = "getComputedStyle(document.body).backgroundColor";
+    const nlohmann::json before = value(background);
+    value("document.getElementById('theme').click()");
+    EXPECT_NE(value(background), before) << "the button does not switch";
+    EXPECT_EQ(value(poor_contrast), nlohmann::json::array()) << (dark ? "light" : "dark") << " by the button";
+    value("localStorage.clear()");
+  }
+}
+
+TEST_F(ReportInBrowser, FitsAPhone) {
+  browser_->set_window(390, 800);
+  open(campaign_page());
+  see_everything();
+  EXPECT_LE(value("document.documentElement.scrollWidth"), 390);
+  EXPECT_TRUE(browser_->errors().empty());
+}
+
+TEST_F(ReportInBrowser, RunsNoScriptThatComesFromAName) {
+  const std::string hostile =
+      "</script><script>window.hacked = 1</script><img src=x onerror='window.hacked = 1'>";
+  Result result = sample_parameter_result();
+  result.command = result.verdict = hostile;
+  for (Section& section : result.sections)
+    for (Plot& plot : section.plots) {
+      plot.title = plot.caption = plot.x_label = plot.y_label = hostile;
+      for (Series& series : plot.series) series.name = hostile;
+    }
+  open(render_html(result));
+  see_everything();
+  EXPECT_TRUE(value("window.hacked === undefined && document.images.length === 0").get<bool>());
+  EXPECT_TRUE(browser_->errors().empty()) << browser_->errors().front();
+}
+
+std::string text_of_pdf(const fs::path& pdf) {
+  const std::string command = "pdftotext -layout '" + pdf.string() + "' -";
+  std::string text;
+  std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
+  std::array<char, 4096> chunk{};
+  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe.get())) > 0;)
+    text.append(chunk.data(), n);
+  return text;
+}
+
+TEST_F(ReportInBrowser, PrintsEverySectionOnA4) {
+  if (!fs::exists("/usr/bin/pdftotext"))
+    GTEST_SKIP() << "poppler-utils is not installed (tests/run.sh installs it)";
+  browser_->set_window(1300, 900, true);
+  open(campaign_page());
+  see_everything();
+  const fs::path pdf = folder_ / "page.pdf";
+  std::ofstream(pdf, std::ios::binary) << browser_->print();
+  const std::string text = text_of_pdf(pdf);
+  for (const char* part :
+       {"falcon", "ident flightlog", "Parameters", "Identifiable", "Checks and warnings", "Data health",
+        "Prediction", "Roll rate, second flight", "rate [rad/s]", "Spectrum of the residual",
+        "Correlation of the estimates", "Provenance", "9f86d081884c", "ident gap", "How far the gap closes"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not on paper";
+  EXPECT_EQ(text.find("Whole record"), std::string::npos) << "buttons are no use on paper";
+}
+
+}  // namespace
+}  // namespace ident::testing
