@@ -5,6 +5,7 @@
 #include "ident/io/campaign.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/report/campaign_report.h"
+#include "shell.h"
 
 namespace ident::app {
 namespace {
@@ -25,14 +26,13 @@ Result report_campaign(const Options& options, Context& context) {
   summary.inputs = {campaign.file, campaign.vehicle};
   chapters.insert(chapters.begin(), summary);
   const std::string title = vehicle.name.empty() ? "Campaign" : vehicle.name;
-  if (!options.output.empty()) {
-    context.outputs.add(options.output, render_as(report_form(options.output), title, chapters));
-  } else {
-    context.outputs.add("report.html", render_html(title, chapters));
-    context.outputs.add("report.md", render_markdown(title, chapters));
+  const std::vector<std::string> pages = options.output.empty()
+                                             ? std::vector<std::string>{"report.html", "report.md"}
+                                             : std::vector{options.output};
+  for (const std::string& page : pages) {
+    add_report(context.outputs, report_files(page, title, chapters));
+    context.notices.push_back("wrote " + page);
   }
-  context.notices.push_back("wrote " +
-                            (options.output.empty() ? "report.html and report.md" : options.output));
   return summary;
 }
 

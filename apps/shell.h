@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command.h"
+#include "ident/report/report.h"
 
 namespace ident::app {
 
@@ -19,6 +20,9 @@ std::shared_ptr<CLI::FormatterBase> help_layout();
 
 /// What is wrong with the command line, with the nearest word that would have been right.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error);
+
+/// Adds the files of a report; the folder of its pictures is made.
+void add_report(Outputs& outputs, const std::vector<ReportFile>& files);
 
 /// Completes the result (command line, hashes), writes all outputs, prints. Returns the exit status.
 ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options,

@@ -7,10 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "ident/core/version.h"
 #include "ident/io/sha256.h"
 #include "ident/report/campaign_report.h"
-#include "ident/report/report.h"
 #include "shell.h"
 
 namespace ident::app {
@@ -34,25 +32,9 @@ void add_provenance(Result& result, const Context& context, const std::vector<st
   if (!context.notices.empty()) result.extra["notices"] = context.notices;
 }
 
-nlohmann::ordered_json json_with_provenance(const Result& result) {
-  nlohmann::ordered_json json = to_json(result);
-  json["version"] = version();
-  json["command_line"] = result.command_line;
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const InputFile& file : result.files) files.push_back({{"path", file.path}, {"sha256", file.sha256}});
-  json["files"] = files;
-  return json;
-}
-
 std::string json_text(const Result& result) {
   // File names may hold bytes that are no UTF-8: replaced, not refused.
   return json_with_provenance(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-std::string report_content(const Result& result, const std::string& path) {
-  const ReportForm form = report_form(path);
-  if (form == ReportForm::json) return json_text(result);
-  return form == ReportForm::markdown ? render_markdown(result) : render_html(result);
 }
 
 /// Keeps the result of a command that read `ident.yaml` beside it, where `ident report` finds it.
@@ -74,11 +56,19 @@ void print(const std::string& text) {
 
 }  // namespace
 
+void add_report(Outputs& outputs, const std::vector<ReportFile>& files) {
+  for (const ReportFile& file : files) {
+    std::error_code ignored;  // without the folder the file cannot be written, which has its own message
+    if (&file != &files.front()) fs::create_directories(fs::path(file.path).parent_path(), ignored);
+    outputs.add(file.path, file.content);
+  }
+}
+
 ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options,
                   const std::vector<std::string>& command_line) {
   Result& result = outcome.result;
   add_provenance(result, context, command_line);
-  if (!options.report.empty()) context.outputs.add(options.report, report_content(result, options.report));
+  if (!options.report.empty()) add_report(context.outputs, report_files(options.report, result));
   keep_in_campaign(result, context);
   const std::string text =
       options.json ? json_text(result) : render_text(result, {.colour = colour_wanted()});

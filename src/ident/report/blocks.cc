@@ -96,6 +96,16 @@ std::vector<std::string> not_identifiable(const Result& result) {
   return lines;
 }
 
+std::vector<std::string> paragraphs_of(const std::string& text) {
+  std::vector<std::string> paragraphs;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find("\n\n", at), text.size());
+    if (end > at) paragraphs.push_back(text.substr(at, end - at));
+    at = end + 2;
+  }
+  return paragraphs;
+}
+
 std::string title_of(const Result& result) {
   return result.command.empty() ? "ident" : "ident " + result.command;
 }

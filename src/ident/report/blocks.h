@@ -21,6 +21,9 @@ Table provenance_table(const Result& result);
 /// A line for each parameter that the data do not determine, with the reason.
 std::vector<std::string> not_identifiable(const Result& result);
 
+/// A text taken apart at its empty lines.
+std::vector<std::string> paragraphs_of(const std::string& text);
+
 /// "ident thrust" from the command, as the title of a page or a chapter.
 std::string title_of(const Result& result);
 

@@ -15,11 +15,8 @@ namespace {
 
 std::string paragraphs(const std::string& text, const std::string& attributes = "") {
   std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find("\n\n", at), text.size());
-    if (end > at) out += "<p" + attributes + ">" + escape_html(text.substr(at, end - at)) + "</p>\n";
-    at = end + 2;
-  }
+  for (const std::string& paragraph : paragraphs_of(text))
+    out += "<p" + attributes + ">" + escape_html(paragraph) + "</p>\n";
   return out;
 }
 

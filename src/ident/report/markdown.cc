@@ -1,15 +1,14 @@
-// The Markdown twin of a report, for repositories: the same content, with its figures named.
+// The Markdown twin of a report, for repositories: the same content in the same order.
+#include "ident/report/markdown.h"
+
 #include "ident/core/format_number.h"
 #include "ident/report/blocks.h"
 #include "ident/report/escape.h"
+#include "ident/report/plot_svg.h"
 #include "ident/report/report.h"
 
 namespace ident {
 namespace {
-
-std::string heading(int level, const std::string& text) {
-  return std::string(static_cast<std::size_t>(level), '#') + " " + escape_markdown(text) + "\n\n";
-}
 
 std::string row_of(const std::vector<std::string>& cells) {
   std::string line = "|";
@@ -27,7 +26,7 @@ std::string table_of(const Table& table) {
 }
 
 Table correlation_table(const Result& result) {
-  Table table{.title = "Correlation", .columns = {""}, .rows = {}};
+  Table table{.columns = {""}};
   table.columns.insert(table.columns.end(), result.correlation_names.begin(), result.correlation_names.end());
   for (Eigen::Index i = 0; i < result.correlation.rows(); ++i) {
     std::vector<std::string> row{result.correlation_names.at(static_cast<std::size_t>(i))};
@@ -38,47 +37,90 @@ Table correlation_table(const Result& result) {
   return table;
 }
 
-std::string section_of(const Section& section, int level) {
-  std::string out = heading(level, section.title);
-  if (!section.text.empty()) out += escape_markdown(section.text) + "\n\n";
-  for (const Table& table : section.tables) {
-    if (!table.title.empty()) out += "**" + escape_markdown(table.title) + "**\n\n";
-    out += table_of(table);
-  }
-  for (const Plot& plot : section.plots) {
-    out += "*Figure: " + escape_markdown(plot.title) + "*";
-    if (!plot.caption.empty()) out += " " + escape_markdown(plot.caption);
-    out += "\n\n";
+/// Letters, digits and hyphens of a name.
+std::string plain(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (kept || (!out.empty() && out.back() != '-')) out += kept ? c : '-';
   }
   return out;
-}
-
-std::string chapter_of(const Result& result, int level) {
-  std::string out = heading(level, title_of(result));
-  if (!result.verdict.empty()) out += escape_markdown(result.verdict) + "\n\n";
-  if (!result.parameters.empty()) out += heading(level + 1, "Parameters") + table_of(parameter_table(result));
-  if (!result.warnings.empty()) {
-    out += heading(level + 1, "Checks and warnings");
-    for (const Warning& warning : result.warnings)
-      out += "* **" + escape_markdown(warning.code) + "**: " + escape_markdown(warning.message) + "\n";
-    out += "\n";
-  }
-  if (const Table fit = fit_table(result); !fit.rows.empty())
-    out += heading(level + 1, "Fit") + table_of(fit);
-  for (const Section& section : result.sections) out += section_of(section, level + 1);
-  if (result.correlation.size() > 0)
-    out += heading(level + 1, "Correlation") + table_of(correlation_table(result));
-  return out + heading(level + 1, "Provenance") + table_of(provenance_table(result));
 }
 
 }  // namespace
 
-std::string render_markdown(const Result& result) { return chapter_of(result, 1); }
+void MarkdownWriter::heading(int level, const std::string& text) {
+  text_ += std::string(static_cast<std::size_t>(level), '#') + " " + escape_markdown(text) + "\n\n";
+}
+
+std::string MarkdownWriter::picture_name(const std::string& chapter, const std::string& plot_id) {
+  const std::string base = plain(chapter) + "-" + plain(plot_id);
+  std::string name = base;
+  for (int i = 2; !names_.insert(name).second; ++i) name = base + "-" + std::to_string(i);
+  return name + ".svg";
+}
+
+void MarkdownWriter::figure(const Plot& plot, const std::string& chapter) {
+  if (folder_.empty()) {
+    text_ += "*Figure: " + escape_markdown(plot.title) + "*";
+  } else {
+    pictures_.push_back({picture_name(chapter, plot.id), standalone_svg(plot)});
+    text_ += "**" + escape_markdown(plot.title) + "**\n\n![" + escape_markdown(plot.title) + "](<" + folder_ +
+             "/" + pictures_.back().name + ">)\n\n";
+  }
+  if (!plot.caption.empty()) text_ += (folder_.empty() ? " " : "") + escape_markdown(plot.caption);
+  text_ += "\n\n";
+}
+
+void MarkdownWriter::section(const Section& section, const std::string& chapter, int level) {
+  heading(level, section.title);
+  for (const std::string& paragraph : paragraphs_of(section.text))
+    text_ += escape_markdown(paragraph) + "\n\n";
+  for (const Table& table : section.tables) {
+    if (!table.title.empty()) text_ += "**" + escape_markdown(table.title) + "**\n\n";
+    text_ += table_of(table);
+  }
+  for (const Plot& plot : section.plots) figure(plot, chapter);
+}
+
+void MarkdownWriter::chapter(const Result& result, int level) {
+  heading(level, title_of(result));
+  for (const std::string& paragraph : paragraphs_of(result.verdict))
+    text_ += escape_markdown(paragraph) + "\n\n";
+  if (!result.parameters.empty()) {
+    heading(level + 1, "Parameters");
+    text_ += table_of(parameter_table(result));
+    for (const std::string& line : not_identifiable(result)) text_ += "* " + escape_markdown(line) + "\n";
+    text_ += "\n";
+  }
+  heading(level + 1, "Checks and warnings");
+  for (const Warning& warning : result.warnings)
+    text_ += "* **" + escape_markdown(warning.code) + "**: " + escape_markdown(warning.message) + "\n";
+  text_ += result.warnings.empty() ? "No warnings.\n\n" : "\n";
+  if (const Table fit = fit_table(result); !fit.rows.empty()) {
+    heading(level + 1, "Fit");
+    text_ += table_of(fit);
+  }
+  for (const Section& part : result.sections) section(part, result.command, level + 1);
+  if (result.correlation.size() > 0) {
+    heading(level + 1, "Correlation");
+    text_ += table_of(correlation_table(result));
+  }
+  heading(level + 1, "Provenance");
+  text_ += table_of(provenance_table(result));
+}
+
+std::string render_markdown(const Result& result) {
+  MarkdownWriter writer;
+  writer.chapter(result, 1);
+  return writer.text();
+}
 
 std::string render_markdown(const std::string& title, std::span<const Result> results) {
-  std::string out = heading(1, title);
-  for (const Result& result : results) out += chapter_of(result, 2);
-  return out;
+  MarkdownWriter writer;
+  writer.heading(1, title);
+  for (const Result& result : results) writer.chapter(result, 2);
+  return writer.text();
 }
 
 }  // namespace ident

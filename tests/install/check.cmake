@@ -1,0 +1,23 @@
+# Installs, builds the consumer, runs both programs; any failure ends the script.
+function(run output)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE text ERROR_VARIABLE text RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${text}")
+  endif()
+  set(${output} "${text}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+run(ignored ${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+run(ignored ${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+run(ignored ${CMAKE_COMMAND} --build ${SCRATCH}/build)
+file(WRITE ${SCRATCH}/falcon.yaml "name: falcon\nlayout: plus\narm: 0.17\n")
+run(found ${SCRATCH}/build/consumer ${SCRATCH}/falcon.yaml)
+if(NOT found MATCHES "slope (1\\.99|2\\.0)" OR NOT found MATCHES "vehicle falcon")
+  message(FATAL_ERROR "the consumer says: ${found}")
+endif()
+run(found ${SCRATCH}/prefix/bin/ident --version)
+if(NOT found MATCHES "ident ${VERSION}")
+  message(FATAL_ERROR "the installed program says: ${found}")
+endif()
