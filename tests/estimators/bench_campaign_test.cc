@@ -1,9 +1,9 @@
 // Short versions of the bench campaigns, with bounds that a right estimator fails about once in 10,000 runs.
+#include "support/bench_campaign.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "support/bench_campaign.h"
 
 namespace ident::bench {
 namespace {
@@ -25,6 +25,18 @@ TEST(BenchCampaign, InertiasAreUnbiasedEfficientAndHonest) { expect_honest(inert
 
 TEST(BenchCampaign, InertiasAreSoWithOutliers) {
   expect_honest(inertia_campaign(kRuns, 12, {.outliers = 0.01}));
+}
+
+TEST(BenchCampaign, ThrustConstantsAreUnbiasedEfficientAndHonest) {
+  expect_honest(thrust_campaign(kRuns, 21, {}));
+}
+
+TEST(BenchCampaign, ThrustConstantsAreSoWithOutliers) {
+  expect_honest(thrust_campaign(kRuns, 22, {.outliers = 0.01}));
+}
+
+TEST(BenchCampaign, ThrustConstantsAreHonestInColouredNoise) {
+  expect_honest(thrust_campaign(kRuns, 23, {.rho = 0.9}), 0.91);
 }
 
 }  // namespace

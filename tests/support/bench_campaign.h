@@ -64,6 +64,23 @@ struct GeneratedTable {
 GeneratedTable pendulum(const BenchVehicle& vehicle, Random& random, int rows,
                         const Disturbance& disturbance);
 
+/// A recording of command steps. `noise` in rad/s; the static curve is
+/// Omega_0 + km delta (1 + curvature (delta - 1/2)).
+struct StepTest {
+  double rate = 100.0;  ///< Hz, on average; the times are not uniform
+  double noise = 2.0;
+  double Omega_0 = 0.0, curvature = 0.0;
+  double down_ratio = 1.0;  ///< omega_m after an edge down over that after an edge up
+  Disturbance disturbance = {};
+};
+
+/// Steps up and down between 20 % and 80 % of the command, each long enough to settle.
+GeneratedTable motor_steps(const BenchVehicle& vehicle, Random& random, const StepTest& test);
+/// A sweep with tare offsets: rows at rest, then five rows at each set-point, with a noisy speed sensor and the
+/// offset of a tenth of full speed in the command curve.
+GeneratedTable thrust_sweep(const BenchVehicle& vehicle, double kT, double kQ, Random& random,
+                            const Disturbance& disturbance);
+
 /// Errors of one parameter over many runs.
 struct Tally {
   int runs = 0, covered = 0;
@@ -82,6 +99,8 @@ using Tallies = std::map<std::string, Tally>;
 
 /// Fits `runs` generated data sets of random vehicles.
 Tallies inertia_campaign(int runs, std::uint64_t seed, const Disturbance& disturbance);
+Tallies motor_campaign(int runs, std::uint64_t seed, const Disturbance& disturbance);
+Tallies thrust_campaign(int runs, std::uint64_t seed, const Disturbance& disturbance);
 
 /// One line per parameter.
 std::string as_markdown(const std::string& title, const Tallies& tallies);

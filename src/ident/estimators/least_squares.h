@@ -59,7 +59,8 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresOptions {
   bool robust = true;
-  int max_colour_order = 3;      ///< of the autoregressive noise; 0: white
+  int max_colour_order = 5;      ///< of the autoregressive noise; 0: white
+  bool search_widely = true;     ///< from three trust regions; not needed where starts come from a grid
   double rank_tolerance = 1e-9;  ///< relative, for a Jacobian with columns scaled to length 1
 };
 

@@ -1,5 +1,6 @@
 // From residuals to an estimate: robust start, outliers and noise in turn with the solution, then
 // uncertainty.
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,15 +52,14 @@ class Fitter {
     start();
     for (int round = 0; round < kMostRounds; ++round) {
       const LinearisedRows rows = linearised();
-      noise_ = estimate_noise(problem_, options_.max_colour_order, rows, noise_);
-      for (std::size_t g = 0; g < noise_.size(); ++g) noise_[g].sigma = std::max(noise_[g].sigma, floor_[g]);
+      update_noise(rows);
       const bool changed = options_.robust && find_outliers(rows);
       const Eigen::VectorXd before = x_;
-      // With one white group and no outliers the weights cannot change the solution.
-      const bool weights_matter = noise_.size() > 1 || noise_[0].colour.order() > 0 || any_rejected();
-      if (weights_matter || round == 0) solve(Effort::polish);
-      if (!changed && (!weights_matter || settled(before))) break;
+      solve(Effort::coarse);
+      if (!changed && settled(rows, before)) break;
     }
+    solve(Effort::polish);
+    update_noise(linearised());
     return uncertainty();
   }
 
@@ -74,7 +74,10 @@ class Fitter {
     return rows;
   }
 
-  bool any_rejected() const { return std::ranges::find(rejected_, true) != rejected_.end(); }
+  void update_noise(const LinearisedRows& rows) {
+    noise_ = estimate_noise(problem_, options_.max_colour_order, rows, std::move(noise_));
+    for (std::size_t g = 0; g < noise_.size(); ++g) noise_[g].sigma = std::max(noise_[g].sigma, floor_[g]);
+  }
 
   Eigen::VectorXd residuals(const Eigen::VectorXd& x, Eigen::MatrixXd* J = nullptr) const {
     Eigen::VectorXd r(problem_.residuals);
@@ -142,18 +145,20 @@ class Fitter {
     set_levels(residuals(*usable));
     set_floors(*usable);
     const RowTransform robust = [&](Eigen::VectorXd& r, Eigen::MatrixXd* J) { shape(r, J); };
+    const Effort wide = options_.search_widely ? Effort::thorough : Effort::polish;
     Minimum best{*usable, std::numeric_limits<double>::infinity()};
     for (const Eigen::VectorXd& x : starts) {
-      const Minimum found =
-          minimise(problem_, x, robust, starts.size() > 1 ? Effort::coarse : Effort::thorough);
+      const Minimum found = minimise(problem_, x, robust, starts.size() > 1 ? Effort::coarse : wide);
       if (found.cost < best.cost) best = found;
     }
     x_ = best.x;
-    for (int i = 0; i < (options_.robust ? 5 : 1); ++i) {
+    set_levels(residuals(x_));
+    x_ = minimise(problem_, x_, robust, wide).x;
+    for (int i = 0; i < 3 && options_.robust; ++i) {
       const Eigen::VectorXd before = x_;
       set_levels(residuals(x_));
-      x_ = minimise(problem_, x_, robust, i == 0 ? Effort::thorough : Effort::coarse).x;
-      if ((x_ - before).cwiseAbs().maxCoeff() <= 1e-6 * x_.cwiseAbs().maxCoeff()) break;
+      x_ = minimise(problem_, x_, robust, Effort::coarse).x;
+      if (((x_ - before).array().abs() <= 1e-4 * x_.array().abs()).all()) break;
     }
     set_levels(residuals(x_));
   }
@@ -236,10 +241,20 @@ class Fitter {
     if (std::isfinite(found.cost)) x_ = found.x;
   }
 
-  bool settled(const Eigen::VectorXd& before) const {
-    for (Eigen::Index i = 0; i < x_.size(); ++i)
-      if (std::fabs(x_(i) - before(i)) > 1e-7 * std::fabs(x_(i))) return false;
-    return true;
+  /// Has the solution moved by less than a thousandth of its standard deviation?
+  bool settled(const LinearisedRows& rows, const Eigen::VectorXd& before) const {
+    Eigen::VectorXd step = x_ - before;
+    for (Eigen::Index i = 0; i < step.size(); ++i)
+      if (problem_.unknowns[static_cast<std::size_t>(i)].coordinate == Coordinate::positive)
+        step(i) = std::log(x_(i) / before(i));
+    // Components along the determined directions.
+    const Eigen::VectorXd along = directions_.determined.colPivHouseholderQr().solve(step);
+    Eigen::MatrixXd change = rows.J * along;
+    whiten(problem_.series, noise_, rejected_, change);
+    double square_length = 0.0;
+    for (Eigen::Index i = 0; i < change.rows(); ++i)
+      if (!rejected_[static_cast<std::size_t>(i)]) square_length += square(change(i, 0));
+    return square_length < 1e-6;
   }
 
   LeastSquaresFit uncertainty() {

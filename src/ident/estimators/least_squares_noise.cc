@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/estimators/least_squares_lag_products.h"
+
 namespace ident {
 namespace {
 
@@ -59,42 +61,44 @@ double minimum(const Function& f, double low, double high, double start, double 
   return x;
 }
 
-/// Sums over the rows of one group, decorrelated but not divided by their level.
-struct Sums {
-  Eigen::MatrixXd JJ;
-  Eigen::VectorXd Jr;
-  double rr = 0.0, log_variances = 0.0;
-  double rows = 0.0;
-};
-
 class RestrictedLikelihood {
  public:
   RestrictedLikelihood(const LeastSquaresProblem& problem, const LinearisedRows& rows,
-                       std::vector<GroupNoise> start)
-      : problem_(problem), rows_(rows), noise(std::move(start)) {
-    for (std::size_t g = 0; g < noise.size(); ++g) sums.push_back(sum(static_cast<int>(g)));
+                       std::vector<GroupNoise> start, Eigen::Index longest_order)
+      : problem_(problem), unknowns_(rows.J.cols()), noise(std::move(start)) {
+    for (std::size_t g = 0; g < noise.size(); ++g)
+      products_.emplace_back(unknowns_ + 1, std::max(longest_order, noise[g].colour.order()));
+    for (const ResidualSeries& s : problem.series) {
+      if (s.end <= s.begin) continue;
+      Eigen::MatrixXd part(s.end - s.begin, unknowns_ + 1);
+      part << rows.J.middleRows(s.begin, s.end - s.begin), rows.r.segment(s.begin, s.end - s.begin);
+      products_[static_cast<std::size_t>(s.group)].add(
+          part, {rows.missing.begin() + s.begin, rows.missing.begin() + s.end});
+    }
+    for (std::size_t g = 0; g < noise.size(); ++g) sums_.push_back(products_[g].sums(noise[g].colour));
   }
 
-  bool level_is_free(std::size_t g) const { return !problem_.groups[g].known_sigma && sums[g].rows > 0; }
+  double rows(std::size_t g) const { return products_[g].rows(); }
+  bool level_is_free(std::size_t g) const { return !problem_.groups[g].known_sigma && rows(g) > 0.0; }
 
   void set_colour(std::size_t g, const Colour& colour) {
     noise[g].colour = colour;
-    sums[g] = sum(static_cast<int>(g));
+    sums_[g] = products_[g].sums(colour);
   }
 
   Eigen::MatrixXd information() const {
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(rows_.J.cols(), rows_.J.cols());
-    for (std::size_t g = 0; g < sums.size(); ++g) M += sums[g].JJ / square(noise[g].sigma);
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
+    for (std::size_t g = 0; g < sums_.size(); ++g) M += sums_[g].JJ / square(noise[g].sigma);
     return M;
   }
 
   double minus_two_log() const {  // (1)
     double value = 0.0;
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(rows_.J.cols());
-    for (std::size_t g = 0; g < sums.size(); ++g) {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(unknowns_);
+    for (std::size_t g = 0; g < sums_.size(); ++g) {
       const double variance = square(noise[g].sigma);
-      value += sums[g].rows * std::log(variance) + sums[g].log_variances + sums[g].rr / variance;
-      b += sums[g].Jr / variance;
+      value += rows(g) * std::log(variance) + sums_[g].log_variances + sums_[g].rr / variance;
+      b += sums_[g].Jr / variance;
     }
     if (b.size() == 0) return value;
     const Eigen::LLT<Eigen::MatrixXd> M(information());
@@ -104,50 +108,28 @@ class RestrictedLikelihood {
   /// The level that maximises (1) with everything else fixed: a fixed point, exact at once for one group.
   void fit_level(std::size_t g) {
     if (!level_is_free(g)) return;
-    for (int i = 0; i < (sums.size() == 1 ? 1 : 3); ++i) {
-      double left = sums[g].rr, taken = 0.0;
-      if (rows_.J.cols() > 0) {
-        Eigen::VectorXd b = Eigen::VectorXd::Zero(rows_.J.cols());
-        for (std::size_t k = 0; k < sums.size(); ++k) b += sums[k].Jr / square(noise[k].sigma);
+    for (int i = 0; i < (sums_.size() == 1 ? 1 : 3); ++i) {
+      double left = sums_[g].rr, taken = 0.0;
+      if (unknowns_ > 0) {
+        Eigen::VectorXd b = Eigen::VectorXd::Zero(unknowns_);
+        for (std::size_t k = 0; k < sums_.size(); ++k) b += sums_[k].Jr / square(noise[k].sigma);
         const Eigen::LLT<Eigen::MatrixXd> M(information());
         const Eigen::VectorXd step = -M.solve(b);
-        left += 2.0 * sums[g].Jr.dot(step) + step.dot(sums[g].JJ * step);
-        taken = M.solve(sums[g].JJ).trace() / square(noise[g].sigma);
+        left += 2.0 * sums_[g].Jr.dot(step) + step.dot(sums_[g].JJ * step);
+        taken = M.solve(sums_[g].JJ).trace() / square(noise[g].sigma);
       }
-      const double variance = std::max(left, 0.0) / std::max(sums[g].rows - taken, 1e-3 * sums[g].rows);
+      const double variance = std::max(left, 0.0) / std::max(rows(g) - taken, 1e-3 * rows(g));
       noise[g].sigma = std::max(std::sqrt(variance), kSmallestSigma);
     }
   }
 
-  std::vector<Sums> sums;
-
  private:
   static double square(double v) { return v * v; }
 
-  Sums sum(int group) const {
-    const Eigen::Index k = rows_.J.cols();
-    Sums total{.JJ = Eigen::MatrixXd::Zero(k, k), .Jr = Eigen::VectorXd::Zero(k)};
-    for (const ResidualSeries& series : problem_.series) {
-      if (series.group != group || series.end <= series.begin) continue;
-      const Eigen::Index n = series.end - series.begin;
-      Eigen::MatrixXd part(n, k + 1);
-      part << rows_.J.middleRows(series.begin, n), rows_.r.segment(series.begin, n);
-      const std::vector<bool> missing(rows_.missing.begin() + series.begin,
-                                      rows_.missing.begin() + series.end);
-      total.log_variances += noise[static_cast<std::size_t>(group)].colour.whiten(0, n, missing, part);
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (missing[static_cast<std::size_t>(i)]) part.row(i).setZero();
-      const Eigen::MatrixXd gram = part.transpose() * part;
-      total.JJ += gram.topLeftCorner(k, k);
-      total.Jr += gram.col(k).head(k);
-      total.rr += gram(k, k);
-      total.rows += static_cast<double>(std::ranges::count(missing, false));
-    }
-    return total;
-  }
-
   const LeastSquaresProblem& problem_;
-  const LinearisedRows& rows_;
+  Eigen::Index unknowns_;
+  std::vector<LagProducts> products_;
+  std::vector<DecorrelatedSums> sums_;
 
  public:
   std::vector<GroupNoise> noise;
@@ -171,7 +153,7 @@ void fit_colour(RestrictedLikelihood& likelihood, std::size_t g, Eigen::VectorXd
 }
 
 void fit_group(RestrictedLikelihood& likelihood, std::size_t g, int max_order) {
-  const double n = likelihood.sums[g].rows;
+  const double n = likelihood.rows(g);
   GroupNoise best = likelihood.noise[g];
   double best_criterion = 0.0;
   Eigen::VectorXd partial(0);
@@ -215,14 +197,13 @@ double whiten(const std::vector<ResidualSeries>& series, const std::vector<Group
 
 std::vector<GroupNoise> estimate_noise(const LeastSquaresProblem& problem, int max_colour_order,
                                        const LinearisedRows& rows, std::vector<GroupNoise> noise) {
-  RestrictedLikelihood likelihood(problem, rows, std::move(noise));
+  RestrictedLikelihood likelihood(problem, rows, std::move(noise), max_colour_order);
   const int rounds = problem.groups.size() == 1 ? 1 : 4;
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t g = 0; g < problem.groups.size(); ++g) {
       if (!likelihood.level_is_free(g)) continue;
-      const bool coloured =
-          problem.groups[g].in_time_order &&
-          likelihood.sums[g].rows >= static_cast<double>(kFewestRowsForColour + rows.J.cols());
+      const bool coloured = problem.groups[g].in_time_order &&
+                            likelihood.rows(g) >= static_cast<double>(kFewestRowsForColour + rows.J.cols());
       if (round == 0)
         fit_group(likelihood, g, coloured ? max_colour_order : 0);
       else
@@ -236,7 +217,7 @@ std::vector<GroupNoise> estimate_noise(const LeastSquaresProblem& problem, int m
 NoiseSensitivity noise_sensitivity(const LeastSquaresProblem& problem, const LinearisedRows& rows,
                                    const std::vector<GroupNoise>& noise) {
   const Eigen::Index unknowns = rows.J.cols();
-  RestrictedLikelihood likelihood(problem, rows, noise);
+  RestrictedLikelihood likelihood(problem, rows, noise, 0);
   const auto covariance = [&] {
     return Eigen::MatrixXd(
         likelihood.information().llt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns)));
@@ -245,7 +226,7 @@ NoiseSensitivity noise_sensitivity(const LeastSquaresProblem& problem, const Lin
   for (std::size_t g = 0; g < noise.size(); ++g) {
     if (!likelihood.level_is_free(g)) continue;
     const Eigen::Index constants = 1 + noise[g].colour.order();
-    const double h = std::clamp(0.3 / std::sqrt(likelihood.sums[g].rows), 1e-3, 0.1);
+    const double h = std::clamp(0.3 / std::sqrt(likelihood.rows(g)), 1e-3, 0.1);
     // Constants of this group: log variance of the innovations, atanh of the partial autocorrelations.
     const auto set = [&](const Eigen::VectorXd& change) {
       Eigen::VectorXd partial = noise[g].colour.partial();

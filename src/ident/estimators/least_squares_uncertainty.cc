@@ -82,16 +82,22 @@ NoiseEstimate described(const LeastSquaresProblem& problem, const LinearisedRows
   return estimate;
 }
 
-/// Likelihood with the level that fits best, so that models with more unknowns can be compared.
+/// Likelihood with the level that fits best, so that models with more unknowns can be compared. A row that
+/// was left out counts as if it lay on the edge of what is believed: otherwise leaving out would be rewarded.
 void set_likelihood(LeastSquaresFit& fit, const LeastSquaresProblem& problem, double log_variances) {
   double n = 0.0;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    double squares = 0.0, rows = 0.0;
+    double squares = 0.0, rows = 0.0, left_out = 0.0;
     for (const ResidualSeries& s : problem.series)
-      for (Eigen::Index i = s.begin; static_cast<std::size_t>(s.group) == g && i < s.end; ++i)
-        if (!fit.rejected[static_cast<std::size_t>(i)])
+      for (Eigen::Index i = s.begin; static_cast<std::size_t>(s.group) == g && i < s.end; ++i) {
+        if (fit.rejected[static_cast<std::size_t>(i)])
+          left_out += 1.0;
+        else
           squares += fit.standardized(i) * fit.standardized(i), rows += 1.0;
+      }
     n += rows;
+    const double cut = outlier_cut(static_cast<std::size_t>(rows + left_out)), sigma = fit.noise[g].sigma;
+    log_variances += left_out * (cut * cut + 2.0 * std::log(sigma));
     if (problem.groups[g].known_sigma)
       log_variances += squares;
     else if (rows > 0.0)

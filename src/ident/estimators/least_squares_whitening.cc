@@ -59,39 +59,52 @@ double Colour::whiten(Eigen::Index begin, Eigen::Index end, const std::vector<bo
     rows.middleRows(begin + k, n - k) -= phi_(k - 1) * raw.topRows(n - k);
 
   // The start of a series and the rows behind a gap need the best prediction from what is there.
-  std::deque<Eigen::Index> seen;  // the last rows that are there, newest first
+  Memory memory(p);
   double log_variances = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto known = static_cast<Eigen::Index>(seen.size());
-    const bool regular = known >= p && seen[static_cast<std::size_t>(p - 1)] == i - p;
     const bool absent = missing[static_cast<std::size_t>(begin + i)];
-    if (!regular) {
-      const Prediction best = predict(i, seen);
+    if (!memory.is_full(i)) {
+      const std::vector<Eigen::Index> distance = memory.distances(i);
+      const Prediction best = predict(distance);
       Eigen::RowVectorXd error = raw.row(i);
-      for (Eigen::Index a = 0; a < known; ++a)
-        error -= best.weight(a) * raw.row(seen[static_cast<std::size_t>(a)]);
+      for (std::size_t a = 0; a < distance.size(); ++a)
+        error -= best.weight(static_cast<Eigen::Index>(a)) * raw.row(i - distance[a]);
       rows.row(begin + i) = error / std::sqrt(best.variance);
       if (!absent) log_variances += std::log(best.variance);
     }
-    if (absent) continue;
-    seen.push_front(i);
-    if (static_cast<Eigen::Index>(seen.size()) > 2 * p) seen.pop_back();
+    if (!absent) memory.remember(i);
   }
   return log_variances;
 }
 
-Colour::Prediction Colour::predict(Eigen::Index i, const std::deque<Eigen::Index>& seen) const {
-  const auto known = static_cast<Eigen::Index>(seen.size());
+Colour::Prediction Colour::predict(const std::vector<Eigen::Index>& distance) const {
+  const auto known = static_cast<Eigen::Index>(distance.size());
   Eigen::MatrixXd K(known, known);
   Eigen::VectorXd c(known);
   for (Eigen::Index a = 0; a < known; ++a) {
-    const Eigen::Index at = seen[static_cast<std::size_t>(a)];
-    c(a) = covariance(i - at);
+    const Eigen::Index d = distance[static_cast<std::size_t>(a)];
+    c(a) = covariance(d);
     for (Eigen::Index b = 0; b < known; ++b)
-      K(a, b) = covariance(std::abs(at - seen[static_cast<std::size_t>(b)]));
+      K(a, b) = covariance(std::abs(d - distance[static_cast<std::size_t>(b)]));
   }
   const Eigen::VectorXd weight = K.llt().solve(c);
   return {weight, covariance(0) - c.dot(weight)};
+}
+
+std::vector<Eigen::Index> Memory::distances(Eigen::Index row) const {
+  std::vector<Eigen::Index> result;
+  for (const Eigen::Index seen : seen_) result.push_back(row - seen);
+  return result;
+}
+
+bool Memory::is_full(Eigen::Index row) const {
+  return order_ == 0 || (static_cast<Eigen::Index>(seen_.size()) >= order_ &&
+                         seen_[static_cast<std::size_t>(order_ - 1)] == row - order_);
+}
+
+void Memory::remember(Eigen::Index row) {
+  seen_.push_front(row);
+  if (static_cast<Eigen::Index>(seen_.size()) > 2 * order_) seen_.pop_back();
 }
 
 }  // namespace ident

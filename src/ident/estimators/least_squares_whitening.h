@@ -31,15 +31,32 @@ class Colour {
   double whiten(Eigen::Index begin, Eigen::Index end, const std::vector<bool>& missing,
                 Eigen::MatrixXd& rows) const;
 
- private:
+  /// The best prediction of a row from rows that lie `distance` steps before it, and its variance.
   struct Prediction {
     Eigen::VectorXd weight;
     double variance;
   };
-  Prediction predict(Eigen::Index i, const std::deque<Eigen::Index>& seen) const;
+  Prediction predict(const std::vector<Eigen::Index>& distance) const;
 
+ private:
   Eigen::VectorXd partial_, phi_;
   std::vector<double> covariance_;
+};
+
+/// Walks the rows of a series: which rows before a row are there to predict it from.
+class Memory {
+ public:
+  explicit Memory(Eigen::Index order) : order_(order) {}
+
+  /// Distances of the last rows that are there, newest first, at most twice the order.
+  std::vector<Eigen::Index> distances(Eigen::Index row) const;
+  /// Are all of the `order` rows before this one there?
+  bool is_full(Eigen::Index row) const;
+  void remember(Eigen::Index row);
+
+ private:
+  Eigen::Index order_;
+  std::deque<Eigen::Index> seen_;
 };
 
 }  // namespace ident

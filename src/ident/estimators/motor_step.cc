@@ -1,0 +1,121 @@
+// Result of `ident motor`.
+#include "ident/estimators/motor_step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/motor_step_findings.h"
+#include "ident/estimators/motor_step_report.h"
+#include "ident/estimators/statistics.h"
+
+namespace ident {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<StepRecord> all_records(const std::vector<NumberTable>& tables, const MotorOptions& options,
+                                    Result& result) {
+  std::vector<StepRecord> records;
+  for (const NumberTable& table : tables) {
+    result.inputs.push_back(table.file);
+    result.warnings.insert(result.warnings.end(), table.warnings.begin(), table.warnings.end());
+    for (StepRecord& record : step_records(table, options.command, result.warnings))
+      records.push_back(std::move(record));
+  }
+  return records;
+}
+
+/// Rows that came in bursts carry the time of their arrival; even times are taken where they fit better.
+MotorFit fit_with_right_times(std::vector<StepRecord>& records, Result& result) {
+  MotorFit motor = fit_motor(records);
+  if (std::ranges::none_of(records, has_bunched_times)) return motor;
+  std::vector<StepRecord> even = records;
+  for (StepRecord& record : even)
+    if (has_bunched_times(record)) record = with_even_times(record);
+  MotorFit with_even = fit_motor(even);
+  if (with_even.fit.bic >= motor.fit.bic) return motor;
+  result.warn(
+      "bunched_times",
+      fmt::format("rows come in bursts, so their times say when they were passed on; times of equal distance "
+                  "were taken instead, which brings the noise from {:.3g} to {:.3g} rad/s",
+                  motor.fit.noise[0].sigma, with_even.fit.noise[0].sigma));
+  records = std::move(even);
+  return with_even;
+}
+
+void add_fit(Result& result, const std::vector<StepRecord>& records, const MotorFit& motor) {
+  std::vector<double> kept, speed;
+  std::size_t row = 0;
+  for (const StepRecord& record : records)
+    for (const double Omega : record.Omega) {
+      if (!motor.fit.rejected[row]) {
+        kept.push_back(Omega - motor.predicted[row]);
+        speed.push_back(Omega);
+      }
+      ++row;
+    }
+  const NoiseEstimate& noise = motor.fit.noise[0];
+  result.fit["samples"] = row;
+  result.fit["rejected"] = row - kept.size();
+  result.fit["r2"] = r_squared(speed, kept);
+  result.fit["rmse"] = {{"omega", root_mean_square(kept)}};
+  result.fit["rho"] = noise.rho;
+  constexpr std::array names = {"proportional", "line", "cubic", "plateaus"};
+  result.fit["static_curve"] = names[static_cast<std::size_t>(motor.curve)];
+}
+
+Json as_json(const Parameter& p) {
+  return {{"value", p.value}, {"std", p.std}, {"ci95", {p.ci95[0], p.ci95[1]}}, {"unit", p.unit}};
+}
+
+void add_response(Result& result, const StepResponse& response) {
+  result.extra["step_response"] = {{"t", response.t}, {"value", response.value}, {"std", response.std}};
+  for (const Parameter* p :
+       {&response.rise_time, &response.time_constant, &response.lag, &response.total_lag})
+    result.extra[p->name] = as_json(*p);
+}
+
+void add_correlation(Result& result, const MotorFit& motor) {
+  result.correlation_names = {"omega_m", "zeta_m", "dead_time"};
+  result.correlation.resize(3, 3);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index a = motor.fit.index(result.correlation_names[static_cast<std::size_t>(i)]);
+      const Eigen::Index b = motor.fit.index(result.correlation_names[static_cast<std::size_t>(k)]);
+      const Eigen::MatrixXd& C = motor.fit.determined_covariance;
+      result.correlation(i, k) = C(a, b) / std::sqrt(C(a, a) * C(b, b));
+    }
+}
+
+}  // namespace
+
+Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions& options) {
+  Result result{.command = "motor"};
+  std::vector<StepRecord> records = all_records(tables, options, result);
+  const MotorFit motor = fit_with_right_times(records, result);
+  const StepResponse response = step_response(motor);
+  const StaticLine line = static_line(records, motor);
+
+  result.parameters.push_back(line.km);
+  if (line.Omega_0) result.parameters.push_back(*line.Omega_0);
+  result.parameters.push_back(fitted_parameter(motor.fit, "omega_m", "rad/s", "motor"));
+  result.parameters.push_back(fitted_parameter(motor.fit, "zeta_m", "-", "motor"));
+  result.parameters.push_back(fitted_parameter(motor.fit, "dead_time", "s", "motor"));
+  add_fit(result, records, motor);
+  add_response(result, response);
+  add_correlation(result, motor);
+  judge_separability(result, response);
+  judge_static_curve(result, records, line);
+  compare_directions(result, records, motor);
+  const Parameter& dead_time = *result.find("dead_time");
+  if (dead_time.ci95[1] < 0.0)
+    result.warn("negative_dead_time",
+                "the speed answers before the command changes: the two columns are not of the "
+                "same time; add a constant to the time of one of them");
+  result.sections = motor_sections(records, motor, response, line);
+  return result;
+}
+
+}  // namespace ident

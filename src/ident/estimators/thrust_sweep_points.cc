@@ -1,0 +1,149 @@
+// From rows to steady points; sign by slope.
+#include "ident/estimators/thrust_sweep_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/error.h"
+#include "ident/estimators/statistics.h"
+#include "ident/estimators/thrust_sweep_lag.h"
+
+namespace ident {
+namespace {
+
+constexpr std::size_t kMostRows = 3000;  // beyond it rows of a set-point are averaged as in a log
+constexpr std::size_t kFewestInADwell = 3;
+constexpr std::size_t kFewestPoints = 3;
+constexpr std::size_t kFewestDwells = 4;
+
+double square(double v) { return v * v; }
+
+/// Median of the slopes of y over Omega^2 between points that are far apart, and of what is left at zero.
+void rough_line(SweepChannel& channel) {
+  std::vector<SweepPoint> sorted = channel.moving;
+  std::ranges::sort(sorted, {}, &SweepPoint::Omega);
+  std::vector<double> slopes, left;
+  const std::size_t n = sorted.size(), half = std::max<std::size_t>(1, n / 2);
+  for (std::size_t i = 0; i + half < n; ++i) {
+    const double run = square(sorted[i + half].Omega) - square(sorted[i].Omega);
+    if (run > 0.0) slopes.push_back((sorted[i + half].value - sorted[i].value) / run);
+  }
+  channel.start_constant = slopes.empty() ? kNaN : median(slopes);
+  for (const SweepPoint& p : sorted) left.push_back(p.value - channel.start_constant * square(p.Omega));
+  channel.start_tare = channel.rest.empty() ? median(left) : median(channel.rest);
+}
+
+void turn_round(SweepChannel& channel) {
+  if (!(channel.start_constant < 0.0)) return;
+  channel.reversed = true;
+  for (SweepPoint& p : channel.moving) p.value = -p.value;
+  for (double& v : channel.rest) v = -v;
+  channel.start_constant = -channel.start_constant;
+  channel.start_tare = -channel.start_tare;
+}
+
+/// Every row a point.
+void take_rows(const SweepRows& rows, const std::vector<double>& y, SweepChannel& channel) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!std::isfinite(y[i]) || !std::isfinite(rows.Omega[i])) continue;
+    if (rows.at_rest[i]) {
+      channel.rest.push_back(y[i]);
+      channel.rest_place.push_back(rows.place[i]);
+    } else {
+      channel.moving.push_back({rows.Omega[i], y[i], rows.place[i], rows.set_point[i]});
+    }
+  }
+  channel.used = channel.moving.size() + channel.rest.size();
+}
+
+/// Every set-point a point: robust mean of the force, speed over the same rows.
+void take_dwells(const SweepRows& rows, const std::vector<double>& y, SweepChannel& channel) {
+  std::vector<double> values, speeds, places;
+  std::vector<double> rest_variance;
+  const auto close = [&](int set_point, bool at_rest) {
+    if (values.size() >= kFewestInADwell) {
+      const RobustMean found = robust_mean(values);
+      channel.used += found.used;
+      if (at_rest) {
+        channel.rest.push_back(found.value);
+        channel.rest_place.push_back(mean(places));
+        rest_variance.push_back(square(found.scale) / static_cast<double>(found.used));
+      } else {
+        channel.moving.push_back({robust_mean(speeds).value, found.value, mean(places), set_point});
+      }
+    }
+    values.clear(), speeds.clear(), places.clear();
+  };
+  int current = -1;
+  bool rest = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows.set_point[i] < 0 && (rows.is_log || !rows.at_rest[i])) continue;
+    if (rows.set_point[i] != current || rows.at_rest[i] != rest) {
+      close(current, rest);
+      current = rows.set_point[i], rest = rows.at_rest[i];
+    }
+    if (!std::isfinite(y[i]) || !std::isfinite(rows.Omega[i])) continue;
+    values.push_back(y[i]), speeds.push_back(rows.Omega[i]), places.push_back(rows.place[i]);
+  }
+  close(current, rest);
+  if (channel.rest.empty()) return;
+  // Stays at rest that differ by more than their noise differ by drift: their spread counts too.
+  const auto stays = static_cast<double>(channel.rest.size());
+  const double within = mean(rest_variance) / stays;
+  const double between = stays > 1.0 ? square(standard_deviation(channel.rest)) / stays : 0.0;
+  channel.rest_std = std::sqrt(std::max(within, between));
+}
+
+SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std::string name,
+                        std::string unit, SweepPoints& points) {
+  SweepChannel channel{.name = std::move(name), .unit = std::move(unit)};
+  if (y.empty()) return channel;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    channel.rows += std::isfinite(y[i]) && std::isfinite(rows.Omega[i]);
+  if (points.averaged)
+    take_dwells(rows, y, channel);
+  else
+    take_rows(rows, y, channel);
+  if (rows.is_log && channel.moving.size() < kFewestDwells) {
+    const LaggedPoints lagged = lagged_points(rows, y);
+    if (lagged.points.size() > channel.moving.size()) {
+      channel.moving = lagged.points;
+      points.lag = lagged.lag;
+    }
+  }
+  if (channel.moving.size() < 2) {
+    channel.moving.clear();
+    return channel;
+  }
+  rough_line(channel);
+  turn_round(channel);
+  return channel;
+}
+
+}  // namespace
+
+double SweepChannel::full_scale() const {
+  double top = 0.0;
+  for (const SweepPoint& p : moving) top = std::max(top, std::fabs(p.value - start_tare));
+  return top;
+}
+
+SweepPoints sweep_points(const SweepRows& rows) {
+  SweepPoints points;
+  const bool repeated = static_cast<std::size_t>(rows.set_points) * kFewestInADwell < rows.size();
+  points.averaged = rows.is_log || (rows.size() > kMostRows && repeated);
+  points.thrust = channel_of(rows, rows.thrust, "thrust", "N", points);
+  points.torque = channel_of(rows, rows.torque, "torque", "N m", points);
+  if (points.thrust.moving.size() < kFewestPoints || !std::isfinite(points.thrust.start_constant))
+    throw DataError(
+        fmt::format("{}: only {} steady points with thrust and rotor speed: kT needs at least {} at "
+                    "different speeds",
+                    rows.file, points.thrust.moving.size(), kFewestPoints));
+  if (points.torque.moving.size() < kFewestPoints || !std::isfinite(points.torque.start_constant))
+    points.torque.moving.clear();
+  return points;
+}
+
+}  // namespace ident
