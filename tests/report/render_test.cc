@@ -1,6 +1,9 @@
 // Every form of a report says the same, in the same order, and no name breaks out of its place.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "ident/core/error.h"
 #include "ident/report/report.h"
 
 namespace ident {
@@ -59,6 +62,42 @@ TEST(Report, EscapesHostileNamesEverywhere) {
   result.sections[0].tables = {{.title = hostile, .columns = {hostile}, .rows = {{hostile, hostile}}}};
   EXPECT_EQ(render_html(result).find("<img"), std::string::npos);
   EXPECT_EQ(render_markdown(result).find("<img"), std::string::npos);
+}
+
+TEST(Report, ShowsItsPicturesInMarkdownFromAFolderBesideIt) {
+  Result result = thrust_result();
+  Plot plot{.id = "fit", .title = "Thrust over speed"};
+  plot.series = {{.name = "thrust", .x = {0, 1}, .y = {0, 1}}};
+  result.sections[0].plots = {plot, plot};
+  const std::vector<ReportFile> files = report_files("out/falcon.md", result);
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0].path, "out/falcon.md");
+  EXPECT_NE(files[0].content.find("](<falcon_figures/thrust-fit.svg>)"), std::string::npos);
+  EXPECT_EQ(files[1].path, "out/falcon_figures/thrust-fit.svg");
+  EXPECT_EQ(files[2].path, "out/falcon_figures/thrust-fit-2.svg");
+}
+
+TEST(Report, IsInJsonWhatTheCommandPrintsWithTheSections) {
+  const nlohmann::json json = nlohmann::json::parse(report_files("r.json", thrust_result()).at(0).content);
+  EXPECT_EQ(json.at("schema"), "ident.result/1");
+  EXPECT_EQ(json.at("sections").at(0).at("title"), "Data health");
+}
+
+TEST(Report, RefusesAnEndingThatItDoesNotKnow) { EXPECT_THROW(report_form("report.pdf"), UsageError); }
+
+TEST(Report, AlignsNumbersOnThePointWithinEightyColumns) {
+  Result result;
+  result.parameters = {{.name = "a", .value = 947.21, .std = 3.1, .ci95 = {941.1, 953.3}, .unit = "rad/s"},
+                       {.name = "b", .value = 0.0123, .std = 0.0011, .ci95 = {0.0101, 0.0145}, .unit = "s"}};
+  result.verdict = std::string(50, 'x') + " " + std::string(50, 'y');
+  std::istringstream lines(render_text(result));
+  std::vector<std::size_t> points;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 80U) << line;
+    if (line.starts_with("a ") || line.starts_with("b ")) points.push_back(line.find('.'));
+  }
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0], points[1]);
 }
 
 }  // namespace
