@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "ident/io/vehicle_file.h"
-#include "ident/io/write_csv.h"
-#include "ident/model/parameters.h"
 #include "ident/model/scenario.h"
 #include "ident/model/simulate.h"
 #include "simulate.h"
@@ -14,7 +12,8 @@ namespace ident::app {
 namespace {
 
 struct Options {
-  std::string vehicle, output, noise = "typical", digits = "plain";
+  SimulateOptions file;
+  std::string noise = "typical";
   std::vector<std::string> without;
   bool log_step = false;
   double attitude_rate = 0, position_rate = 0, rotor_rate = 0;  // Hz; 0: every row
@@ -50,18 +49,8 @@ LoggedSignals logged(const Options& options) {
 }
 
 Result description(const Options& options, const Vehicle& vehicle, const SimulatedFlight& flight) {
-  Result result;
-  result.command = "simulate";
-  result.inputs = {options.vehicle};
-  result.seed = options.flight.seed;
-  for (const auto& [name, known] : vehicle.parameters) {
-    Parameter p;
-    p.name = name, p.value = known.value, p.unit = parameter_unit(name), p.source = "truth";
-    result.parameters.push_back(p);
-  }
-  result.extra["output"] = options.output;
+  Result result = simulated(options.file, vehicle, options.flight.seed);
   result.extra["scenario"] = options.flight.scenario;
-  result.extra["seed"] = options.flight.seed;
   result.extra["noise"] = options.noise;
   result.extra["rows"] = flight.log.rows();
   result.extra["duration"] = flight.log.t.back();
@@ -69,42 +58,33 @@ Result description(const Options& options, const Vehicle& vehicle, const Simulat
   result.extra["furthest_from_plan"] = flight.furthest;
   result.extra["gyro_bias"] = {flight.gyro_bias[0], flight.gyro_bias[1], flight.gyro_bias[2]};
   result.verdict = fmt::format("{} rows over {:.4g} s in {}, seed {}.", flight.log.rows(),
-                               flight.log.t.back(), options.output, options.flight.seed);
+                               flight.log.t.back(), options.file.output, options.flight.seed);
   return result;
 }
 
 Outcome run(Options options, Context& context) {
-  const Vehicle vehicle = read_vehicle(options.vehicle);
+  const Vehicle vehicle = read_vehicle(options.file.vehicle);
   options.flight.noise = noise_level(options.noise);
   options.flight.signals = logged(options);
   if (options.log_step) options.flight.longest_step = 0.0;
   Progress progress("flying");
   options.flight.progress = [&](double share) { progress.update(share); };
   const SimulatedFlight flight = simulate_flight(vehicle, options.flight);
-  std::vector<std::string> comments = provenance("simulate flight", options.vehicle, options.flight.seed);
+  std::vector<std::string> comments =
+      provenance("simulate flight", options.file.vehicle, options.flight.seed);
   comments.push_back(fmt::format("scenario {}, noise {}, turbulence {} m/s, {} Hz", options.flight.scenario,
                                  options.noise, options.flight.turbulence, options.flight.rate));
-  context.outputs.add(
-      options.output,
-      flight_log_to_csv(flight.log, vehicle, options.digits == "full" ? CsvDigits::full : CsvDigits::plain,
-                        comments));
+  context.outputs.add(options.file.output,
+                      flight_log_to_csv(flight.log, vehicle, digits(options.file), comments));
   return description(options, vehicle, flight);
 }
 
 }  // namespace
 
-std::vector<std::string> provenance(const std::string& what, const std::string& vehicle, std::uint64_t seed) {
-  return {fmt::format("ident {} of {}, seed {}", what, vehicle, seed)};
-}
-
 void add_simulate_flight(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   auto o = std::make_shared<Options>();
   CLI::App* sub = cli.add_subcommand("flight", "a closed-loop flight with a realistic sensor model");
-  sub->fallthrough();
-  sub->add_option("--vehicle", o->vehicle, "vehicle file; effects under its parameters act")
-      ->type_name("FILE")
-      ->required();
-  sub->add_option("--output", o->output, "log to write, CSV")->type_name("FILE")->required();
+  add_simulate_options(*sub, o->file);
   std::vector<std::string> names;
   for (const ScenarioInfo& info : scenarios()) names.push_back(info.name);
   sub->add_option("--scenario", o->flight.scenario, "what is flown (list below)")->capture_default_str();
@@ -126,14 +106,11 @@ void add_simulate_flight(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   sub->add_option("--attitude-rate", o->attitude_rate, "Hz; each row if not given");
   sub->add_option("--position-rate", o->position_rate, "of position and velocity, Hz; each row if not given");
   sub->add_option("--rotor-rate", o->rotor_rate, "of rotor speeds, Hz; each row if not given");
-  sub->add_option("--precision", o->digits, "plain, or full: numbers that read back exactly")
-      ->check(CLI::IsMember({"plain", "full"}))
-      ->capture_default_str();
   CLI::Option* step = sub->add_option("--step", o->flight.longest_step, "longest step of the integrator, s");
   step->capture_default_str();
   sub->add_flag("--log-step", o->log_step, "one step from row to row, as an estimator makes it")
       ->excludes(step);
-  sub->footer(scenario_list());
+  sub->footer("\n" + scenario_list());
   sub->callback([o, chosen] { *chosen = [o](Context& context) { return run(*o, context); }; });
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
-#include "ident/estimators/trifilar_inertia_period.h"
+#include "ident/model/trifilar_period.h"
 #include "support/bench_campaign.h"
 
 namespace ident {

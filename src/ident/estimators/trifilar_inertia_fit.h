@@ -5,7 +5,7 @@
 
 #include "ident/core/result.h"
 #include "ident/estimators/least_squares.h"
-#include "ident/estimators/trifilar_inertia_period.h"
+#include "ident/model/trifilar_period.h"
 #include "ident/estimators/trifilar_inertia_rows.h"
 
 namespace ident {

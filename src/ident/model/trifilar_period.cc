@@ -1,5 +1,5 @@
 // Quadrature of the exact period; the midpoint rule converges exponentially for this periodic integrand.
-#include "ident/estimators/trifilar_inertia_period.h"
+#include "ident/model/trifilar_period.h"
 
 #include <cmath>
 
