@@ -16,7 +16,7 @@ mkdir -p "$(dirname "$campaign")"
 cp -r "$root/data/sample" "$campaign"
 cd "$campaign"
 ident=$root/build/ident
-for step in thrust motor inertia "flightlog --refine" slant check; do
+for step in thrust motor inertia gap "flightlog --refine" slant check; do
   echo "ident $step"
   # shellcheck disable=SC2086
   "$ident" $step >/dev/null
