@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
+#include "ident/core/error.h"
 #include "ident/estimators/motor_step.h"
 #include "ident/estimators/thrust_sweep.h"
 #include "ident/estimators/trifilar_inertia.h"
@@ -126,6 +129,36 @@ TEST(SimulateBench, TheSameSeedGivesTheSameFileAndAnotherSeedAnotherOne) {
   const auto a = all(1), b = all(1), c = all(2);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(a[i], b[i]) << i;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NE(a[i], c[i]) << i;
+}
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(SimulateBench, WhatTheVehicleOrTheOptionsLackIsNamed) {
+  Vehicle vehicle = random_vehicle(1);
+  ThrustSweep sweep;
+  sweep.supply = 11.1;
+  EXPECT_NE(refusal([&] { simulate_thrust(vehicle, sweep); }).find("ki: a positive value"),
+            std::string::npos);
+  sweep.supply.reset();
+  sweep.command = CommandColumn::pulse;
+  EXPECT_NE(refusal([&] { simulate_thrust(vehicle, sweep); }).find("'command'"), std::string::npos);
+  sweep.command = CommandColumn::delta, sweep.highest = 1.2;
+  EXPECT_NE(refusal([&] { simulate_thrust(vehicle, sweep); }).find("between 0 and 1"), std::string::npos);
+  EXPECT_NE(refusal([&] { simulate_motor(vehicle, {.rotor = 7}); }).find("rotor"), std::string::npos);
+  EXPECT_NE(refusal([&] { simulate_motor(vehicle, {.levels = {0.5}}); }).find("two levels"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { simulate_inertia(vehicle, {.offset = 9.0}); }).find("offset"), std::string::npos);
+  vehicle.parameters.erase("Jyy");
+  EXPECT_NE(refusal([&] { simulate_inertia(vehicle, {}); }).find("Jyy"), std::string::npos);
+  vehicle.parameters.erase("omega_m");
+  EXPECT_NE(refusal([&] { simulate_motor(vehicle, {}); }).find("omega_m"), std::string::npos);
 }
 
 TEST(SimulateBench, NoiseOutliersAndMemoryAreAsLargeAsStated) {

@@ -21,7 +21,7 @@ Vehicle agile_vehicle() {
     if (const Vehicle v = random_vehicle(seed); v.value("omega_m") > 30) return v;
 }
 
-TEST(Simulate, DISABLED_OneHundredRandomVehiclesFlyTheMixedScenario) {
+TEST(Simulate, OneHundredRandomVehiclesFlyTheMixedScenario) {
   SimulationOptions options = quick("mixed", 40);
   options.longest_step = 0.0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {

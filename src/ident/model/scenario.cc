@@ -127,13 +127,19 @@ const Scenario::Leg* Scenario::leg_at(double t) const {
 // To and fro: pairs of moves, each as quick as the vehicle may, with a rest after each.
 Scenario::Pose Scenario::shuttle(const Leg& leg, double s) const {
   const bool turning = leg.kind == Kind::yaw, vertical = leg.kind == Kind::vertical;
-  const double pole = turning ? agility_.yaw_bandwidth : vertical ? agility_.lift_bandwidth : agility_.position_bandwidth;
-  const int moves = 4 * std::max(1, static_cast<int>(leg.duration / (4 * std::max(3.0 / pole, 1.5))));
+  const double pole = turning    ? agility_.yaw_bandwidth
+                      : vertical ? agility_.lift_bandwidth
+                                 : agility_.position_bandwidth;
+  const double needed = std::max(3.0 / pole, 1.5);  // s for a move; in haste 0.6 of it will do
+  const int fours = static_cast<int>(leg.duration / (4 * needed));
+  const int moves = fours > 0 ? 4 * fours : leg.duration > 4 * 0.6 * needed ? 4 : 2;
   const double each = leg.duration / moves, moving = 0.65 * each;
+  // Where a leg is too short for moves that the vehicle can follow, they shrink with the squared time.
+  const double hurry = std::max(0.6 * needed / each, 1.0);
   const double most = turning    ? agility_.yaw_acceleration
                       : vertical ? agility_.lift_acceleration
                                  : agility_.tilt_acceleration;
-  const double reach = most * moving * moving / kSmoothPeak;
+  const double reach = most * moving * moving / kSmoothPeak / (hurry * hurry);
   const int i = std::min(static_cast<int>(s / each), moves - 1);
   const double part = smooth((s - i * each) / moving);
   const double out = i % 2 == 0 ? part : 1.0 - part;  // even moves go out, odd ones come back
