@@ -26,6 +26,7 @@ namespace ident::app {
 
 /// What a subcommand is given, and where it leaves what is not part of the result.
 struct Context {
+  std::vector<std::string> command_line;  ///< as it was typed
   /// Further files that were read (vehicle, map); those in `Result::inputs` count anyway. Hashes go to the
   /// report. With the campaign's `ident.yaml` among them the result is kept for `ident report`.
   std::vector<std::string> used;

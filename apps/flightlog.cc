@@ -12,6 +12,14 @@ struct Options {
   double horizon = 1.0;
 };
 
+/// The refined model simulated against the logs, as a part of the report.
+Section verification(Vehicle vehicle, const Result& refined, const FlightInput& input, double horizon) {
+  for (const Parameter& p : refined.parameters) vehicle.parameters[p.name] = {.value = p.value, .std = p.std};
+  Section shown = verify_flight(vehicle, input.logs, horizon).sections.back();
+  shown.title = "The refined model, simulated against measured";
+  return shown;
+}
+
 Outcome run(const Options& options, Context& context) {
   FlightInput input = flight_input(options.flight, context);
   if (!options.refine) return verify_flight(input.vehicle, input.logs, options.horizon);
@@ -20,6 +28,7 @@ Outcome run(const Options& options, Context& context) {
   refine.free = options.free;
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
+  result.sections.push_back(verification(input.vehicle, result, input, options.horizon));
   if (input.campaign)
     context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
   return result;
@@ -35,7 +44,7 @@ Action flightlog_command(CLI::App& cli) {
   cli.add_option("--free", options->free, "further parameters to estimate")
       ->delimiter(',')
       ->type_name("NAME,...");
-  cli.add_option("--horizon", options->horizon, "length of the simulated windows without --refine, s")
+  cli.add_option("--horizon", options->horizon, "length of the simulated windows, s")
       ->check(CLI::Range(0.02, 60.0))
       ->type_name("SECONDS");
   examples(

@@ -55,10 +55,9 @@ int run(int argc, char** argv) {
   }
   for (const Registered& command : commands) {
     if (!command.cli->parsed()) continue;
-    Context context;
+    Context context{.command_line = std::vector<std::string>(argv, argv + argc)};
     Outcome outcome = command.action(context);
-    return static_cast<int>(
-        finish(std::move(outcome), context, *command.shared, std::vector<std::string>(argv, argv + argc)));
+    return static_cast<int>(finish(std::move(outcome), context, *command.shared));
   }
   return static_cast<int>(ExitStatus::bad_input);
 }

@@ -24,6 +24,7 @@ Result report_campaign(const Options& options, Context& context) {
         "nothing to report yet: run `ident thrust`, `ident motor` or `ident flightlog --refine` first");
   Result summary = campaign_summary(vehicle, chapters);
   summary.inputs = {campaign.file, campaign.vehicle};
+  add_provenance(summary, context);
   chapters.insert(chapters.begin(), summary);
   const std::string title = vehicle.name.empty() ? "Campaign" : vehicle.name;
   const std::vector<std::string> pages = options.output.empty()

@@ -24,8 +24,10 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
 /// Adds the files of a report; the folder of its pictures is made.
 void add_report(Outputs& outputs, const std::vector<ReportFile>& files);
 
-/// Completes the result (command line, hashes), writes all outputs, prints. Returns the exit status.
-ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options,
-                  const std::vector<std::string>& command_line);
+/// Adds to a result what a stranger needs to repeat it: the command line, the hashes of all files read.
+void add_provenance(Result& result, const Context& context);
+
+/// Completes the result, writes all outputs, prints. Returns the exit status.
+ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options);
 
 }  // namespace ident::app

@@ -21,17 +21,6 @@ bool colour_wanted() {
   return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
 }
 
-void add_provenance(Result& result, const Context& context, const std::vector<std::string>& command_line) {
-  std::vector<std::string> paths = result.inputs;
-  paths.insert(paths.end(), context.used.begin(), context.used.end());
-  for (const std::string& path : paths) {
-    const bool known = std::ranges::any_of(result.files, [&](const InputFile& f) { return f.path == path; });
-    if (!known && fs::is_regular_file(path)) result.files.push_back({path, sha256_of_file(path)});
-  }
-  result.command_line = command_line;
-  if (!context.notices.empty()) result.extra["notices"] = context.notices;
-}
-
 std::string json_text(const Result& result) {
   // File names may hold bytes that are no UTF-8: replaced, not refused.
   return json_with_provenance(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -56,6 +45,17 @@ void print(const std::string& text) {
 
 }  // namespace
 
+void add_provenance(Result& result, const Context& context) {
+  std::vector<std::string> paths = result.inputs;
+  paths.insert(paths.end(), context.used.begin(), context.used.end());
+  for (const std::string& path : paths) {
+    const bool known = std::ranges::any_of(result.files, [&](const InputFile& f) { return f.path == path; });
+    if (!known && fs::is_regular_file(path)) result.files.push_back({path, sha256_of_file(path)});
+  }
+  result.command_line = context.command_line;
+  if (!context.notices.empty()) result.extra["notices"] = context.notices;
+}
+
 void add_report(Outputs& outputs, const std::vector<ReportFile>& files) {
   for (const ReportFile& file : files) {
     std::error_code ignored;  // without the folder the file cannot be written, which has its own message
@@ -64,10 +64,9 @@ void add_report(Outputs& outputs, const std::vector<ReportFile>& files) {
   }
 }
 
-ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options,
-                  const std::vector<std::string>& command_line) {
+ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options) {
   Result& result = outcome.result;
-  add_provenance(result, context, command_line);
+  add_provenance(result, context);
   if (!options.report.empty()) add_report(context.outputs, report_files(options.report, result));
   keep_in_campaign(result, context);
   const std::string text =

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "ident/core/format_number.h"
 #include "ident/estimators/least_squares_plots.h"
+#include "ident/estimators/residual_spectrum.h"
 
 namespace ident {
 namespace {
@@ -72,6 +74,15 @@ Residuals residuals(const std::vector<StepRecord>& records, const MotorFit& moto
   return all;
 }
 
+/// Median of the time from row to row, s.
+double usual_step(const std::vector<double>& t) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  if (steps.empty()) return kNaN;
+  std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
+  return steps[steps.size() / 2];
+}
+
 Table times_table(const StepResponse& response) {
   Table table{.title = "Times of the step response", .columns = {"time", "value [s]", "95 % interval"}};
   for (const Parameter* p :
@@ -119,7 +130,8 @@ std::vector<Section> motor_sections(const std::vector<StepRecord>& records, cons
                .plots = {residual_plot(names, all.t, "time [s]", all.residual, rejected),
                          residual_plot(names, all.Omega, "speed [rad/s]", all.residual, rejected),
                          histogram_plot(names, standardized), normal_quantile_plot(names, standardized),
-                         autocorrelation_plot(names, kept, standardized)}};
+                         autocorrelation_plot(names, kept, standardized),
+                         spectrum_plot(names, kept, usual_step(records.front().t))}};
   return {std::move(fit), std::move(answer), std::move(left)};
 }
 

@@ -94,12 +94,22 @@ void drop_held(FlightLog& log, Components sensor, const std::string& name) {
                    log.file, name, 100.0 * share)});
 }
 
-void tell_rate(FlightLog& log, std::span<const std::vector<double>> sensor, const std::string& name) {
-  const std::vector<std::size_t> rows = rows_of(sensor);
-  if (rows.size() < 2) return;
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(log.t[rows[k]] - log.t[rows[k - 1]]);
-  log.notices.push_back(fmt::format("{}: {} at {:.4g} Hz", log.file, name, 1.0 / *median(steps)));
+void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {
+  std::vector<std::pair<std::string, std::string>> by_rate;
+  for (const NamedSensor& sensor : sensors) {
+    const std::vector<std::size_t> rows = rows_of(sensor.components);
+    if (rows.size() < 2) continue;
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(log.t[rows[k]] - log.t[rows[k - 1]]);
+    const std::string rate = fmt::format("{:.3g} Hz", 1.0 / *median(steps));
+    auto at = std::ranges::find(by_rate, rate, &std::pair<std::string, std::string>::first);
+    if (at == by_rate.end()) at = by_rate.insert(at, {rate, ""});
+    at->second += (at->second.empty() ? "" : ", ") + sensor.name;
+  }
+  std::string text;
+  for (const auto& [rate, names] : by_rate)
+    text += (text.empty() ? "" : "; ") + fmt::format("{} at {}", names, rate);
+  if (!text.empty()) log.notices.push_back(log.file + ": " + text);
 }
 
 void check_time(FlightLog& log, long header_line, bool unit_stated) {

@@ -18,8 +18,14 @@ void drop_constant(FlightLog& log, Components sensor, const std::string& name);
 /// Makes NaN what a log repeats between two samples of a slower sensor (warning `held_samples`).
 void drop_held(FlightLog& log, Components sensor, const std::string& name);
 
-/// Tells the rate of a sensor in a notice.
-void tell_rate(FlightLog& log, std::span<const std::vector<double>> sensor, const std::string& name);
+/// A sensor under the name by which people know it.
+struct NamedSensor {
+  std::string name;
+  std::span<const std::vector<double>> components;
+};
+
+/// Tells the rates of the sensors in one notice, those of equal rate together.
+void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors);
 
 /// Throws InputError where time is in another unit than s (`unit_stated`: the user said which); warns of
 /// gaps.

@@ -148,22 +148,24 @@ class Builder {
   };
 
   std::vector<Sensor> sensors() {
-    return {{"p, q, r", log_.w_B},
-            {"ax, ay, az", log_.f_B},
+    return {{"p q r", log_.w_B},
+            {"ax ay az", log_.f_B},
             {"attitude", log_.q_WB},
-            {"x, y, z", log_.x_W},
-            {"vx, vy, vz", log_.v_W}};
+            {"x y z", log_.x_W},
+            {"vx vy vz", log_.v_W}};
   }
 
   void check_sensors() {
+    std::vector<NamedSensor> found;
     for (const Sensor& sensor : sensors()) {
       drop_constant(log_, sensor.components, sensor.name);
       if (sensor.components.front().empty()) continue;
       drop_held(log_, sensor.components, sensor.name);
-      tell_rate(log_, sensor.components, sensor.name);
+      found.push_back({sensor.name, sensor.components});
     }
-    if (log_.has_commands()) tell_rate(log_, log_.delta, "commands");
-    if (log_.has_rotor_speeds()) tell_rate(log_, log_.Omega, "rotor speeds");
+    if (log_.has_commands()) found.push_back({"commands", log_.delta});
+    if (log_.has_rotor_speeds()) found.push_back({"rotor speeds", log_.Omega});
+    tell_rates(log_, found);
   }
 
   static void turn(std::array<Rows, 3>& vector, const Eigen::Matrix3d& C) {

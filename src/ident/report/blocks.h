@@ -8,26 +8,48 @@
 
 namespace ident {
 
-/// Name, value, unit, interval, deviation (the naive one beside it) and source; prior, pull and the share of
-/// the data where any parameter has them.
+/// The verdict in plain words: the command's own, else what was identified; then what is not identifiable and
+/// which findings to look at.
+std::string verdict_of(const Result& result);
+
+/// Name, value, unit, interval, deviation (the naive one beside it); prior, pull and the share of the data
+/// where any parameter has them; the source where it is not the same for all.
 Table parameter_table(const Result& result);
 
-/// The numbers of `Result::fit` under their dotted names; empty without any.
+/// The parts after the findings, in the order in which they are read: data health, the digest of the fit,
+/// then what the command has to show.
+std::vector<Section> sections_in_order(const Result& result);
+
+/// Findings of one kind together, in the order in which the kinds appear.
+struct Findings {
+  std::string code;
+  std::vector<std::string> messages;
+};
+std::vector<Findings> findings_by_kind(const Result& result);
+
+/// The single numbers of `Result::fit` under their dotted names; what is many stands in the JSON and in the
+/// sections. Empty without any.
 Table fit_table(const Result& result);
 
 /// Command, version, seed, and the hash of every input: what a stranger needs to repeat the result.
 Table provenance_table(const Result& result);
 
-/// A line for each parameter that the data do not determine, with the reason.
+/// What the data do not determine: a line for each reason.
 std::vector<std::string> not_identifiable(const Result& result);
 
 /// A text taken apart at its empty lines.
 std::vector<std::string> paragraphs_of(const std::string& text);
 
-/// "ident thrust" from the command, as the title of a page or a chapter.
+/// The lines of a paragraph; more than one make a list.
+std::vector<std::string> lines_of(const std::string& paragraph);
+
+/// A diagnosis is about causes: its parameters come after its pictures.
+bool is_diagnosis(const Result& result);
+
+/// "ident flightlog --refine" from the command, as the title of a page or a chapter.
 std::string title_of(const Result& result);
 
-/// The command as it was typed, quoted for the shell where needed.
+/// The command as it was typed, without the folder of the program, quoted for the shell where needed.
 std::string command_line_of(const Result& result);
 
 }  // namespace ident

@@ -11,6 +11,7 @@
 #include "ident/io/read_bytes.h"
 #include "ident/io/sha256.h"
 #include "ident/model/parameters.h"
+#include "ident/report/blocks.h"
 #include "ident/report/stored_result.h"
 
 namespace ident {
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFolder = ".ident";
 constexpr std::size_t kLargest = std::size_t{1} << 30;  // bytes of a stored result
-constexpr std::array<std::string_view, 7> kOrder{"thrust",    "motor", "inertia", "flightlog-refine",
-                                                 "flightlog", "slant", "check"};
+constexpr std::array<std::string_view, 8> kOrder{"thrust",    "motor", "inertia", "flightlog-refine",
+                                                 "flightlog", "gap",   "slant",   "check"};
 
 /// Command, with what makes two of its results worth keeping side by side.
 std::string name_of(const Result& result) {
@@ -105,11 +106,12 @@ Result campaign_summary(const Vehicle& vehicle, const std::vector<Result>& resul
   summary.command = "report";
   summary.inputs = {vehicle.file};
   summary.warnings = vehicle.warnings;
-  std::string commands;
+  Table commands{.columns = {"Command", "What it found"}};
   for (const Result& result : results) {
-    commands += (commands.empty() ? "" : ", ") + result.command;
+    commands.rows.push_back({title_of(result), verdict_of(result)});
     for (const Warning& warning : result.warnings)
       summary.warn(warning.code, "ident " + result.command + ": " + warning.message);
+    if (is_diagnosis(result)) continue;  // it keeps nothing in the parameter file
     for (const Parameter& found : result.parameters) {
       const auto at = std::ranges::find(summary.parameters, found.name, &Parameter::name);
       if (at == summary.parameters.end())
@@ -123,10 +125,12 @@ Result campaign_summary(const Vehicle& vehicle, const std::vector<Result>& resul
   for (const auto& [name, known] : vehicle.parameters)
     if (summary.find(name) == nullptr) summary.parameters.push_back(stated(vehicle, name));
   summary.verdict =
-      fmt::format("{} of {}: {}. {} of {} were identified, with {} to look at.",
-                  counted(results.size(), "result"), vehicle.name.empty() ? "the vehicle" : vehicle.name,
-                  commands.empty() ? "none yet" : commands, found - static_cast<std::size_t>(unknown),
-                  counted(found, "parameter"), counted(summary.warnings.size(), "warning"));
+      fmt::format("{}: {} from {}, {} of them identified.",
+                  vehicle.name.empty() ? "The vehicle" : vehicle.name, counted(found, "parameter"),
+                  counted(results.size(), "result"), found - static_cast<std::size_t>(unknown));
+  for (const Result& result : results)
+    if (is_diagnosis(result)) summary.verdict += " " + result.verdict;
+  summary.sections.push_back({.title = "What each command found", .tables = {std::move(commands)}});
   return summary;
 }
 

@@ -15,8 +15,16 @@ namespace {
 
 std::string paragraphs(const std::string& text, const std::string& attributes = "") {
   std::string out;
-  for (const std::string& paragraph : paragraphs_of(text))
-    out += "<p" + attributes + ">" + escape_html(paragraph) + "</p>\n";
+  for (const std::string& paragraph : paragraphs_of(text)) {
+    const std::vector<std::string> lines = lines_of(paragraph);
+    if (lines.size() == 1) {
+      out += "<p" + attributes + ">" + html_text(paragraph) + "</p>\n";
+      continue;
+    }
+    out += "<ul class=\"lines\">\n";
+    for (const std::string& line : lines) out += "<li>" + html_text(line) + "</li>\n";
+    out += "</ul>\n";
+  }
   return out;
 }
 
@@ -25,17 +33,17 @@ class Page {
  public:
   void heading(int level, const std::string& text) {
     const std::string id = fmt::format("part{}", ++parts_);
-    body_ += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", level, id, escape_html(text));
+    body_ += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", level, id, html_text(text));
     if (level > 1 && level < 4)
       contents_ +=
-          fmt::format("<li class=\"level{}\"><a href=\"#{}\">{}</a></li>\n", level, id, escape_html(text));
+          fmt::format("<li class=\"level{}\"><a href=\"#{}\">{}</a></li>\n", level, id, html_text(text));
   }
   void add(const std::string& html) { body_ += html; }
 
   void figure(const Plot& plot, const std::string& group) {
     const std::string id = fmt::format("figure{}", ++figures_);
-    body_ += fmt::format("<figure id=\"{}\"><figcaption><strong>{}</strong>", id, escape_html(plot.title));
-    if (!plot.caption.empty()) body_ += "<span>" + escape_html(plot.caption) + "</span>";
+    body_ += fmt::format("<figure id=\"{}\"><figcaption><strong>{}</strong>", id, html_text(plot.title));
+    if (!plot.caption.empty()) body_ += "<span>" + html_text(plot.caption) + "</span>";
     body_ += "</figcaption>\n";
     const std::string picture = "<div class=\"picture\">" + plot_svg(plot, id) + "</div>";
     if (plot.kind == Plot::Kind::time_series && !kPlotLibrary.empty())
@@ -55,6 +63,7 @@ class Page {
     body_ += "</section>\n";
   }
 
+  void parameters(const Result& result, int level);
   void chapter(const Result& result, int level);
   std::string finish(const std::string& title) const;
 
@@ -67,26 +76,29 @@ class Page {
 std::string warnings_of(const Result& result) {
   if (result.warnings.empty()) return "<p class=\"none-found\">No warnings.</p>\n";
   std::string out = "<ul class=\"warnings\">\n";
-  for (const Warning& warning : result.warnings)
-    out += "<li><b>" + escape_html(warning.code) + "</b> " + escape_html(warning.message) + "</li>\n";
+  for (const Findings& kind : findings_by_kind(result)) {
+    out += "<li><b>" + escape_html(kind.code) + "</b>";
+    for (const std::string& message : kind.messages) out += " <span>" + html_text(message) + "</span>";
+    out += "</li>\n";
+  }
   return out + "</ul>\n";
+}
+
+void Page::parameters(const Result& result, int level) {
+  if (result.parameters.empty()) return;
+  heading(level, "Parameters");
+  add(html_table(parameter_table(result), ""));
+  for (const std::string& line : not_identifiable(result)) add(paragraphs(line, " class=\"open\""));
 }
 
 void Page::chapter(const Result& result, int level) {
   heading(level, title_of(result));
-  add(paragraphs(result.verdict, " class=\"verdict\""));
-  if (!result.parameters.empty()) {
-    heading(level + 1, "Parameters");
-    add(html_table(parameter_table(result), ""));
-    for (const std::string& line : not_identifiable(result)) add(paragraphs(line, " class=\"open\""));
-  }
+  add(paragraphs(verdict_of(result), " class=\"verdict\""));
+  if (!is_diagnosis(result)) parameters(result, level + 1);
   heading(level + 1, "Checks and warnings");
   add(warnings_of(result));
-  if (const Table fit = fit_table(result); !fit.rows.empty()) {
-    heading(level + 1, "Fit");
-    add(html_table(fit, ""));
-  }
-  for (const Section& part : result.sections) section(part, level + 1);
+  for (const Section& part : sections_in_order(result)) section(part, level + 1);
+  if (is_diagnosis(result)) parameters(result, level + 1);
   if (result.correlation.size() > 0) {
     heading(level + 1, "Correlation");
     figure(correlation_plot(result), "");

@@ -10,6 +10,8 @@
 namespace ident {
 namespace {
 
+constexpr std::size_t kLongestNumber = 48;  // bytes; what is longer and starts with a digit is a sentence
+
 /// Columns with their numbers aligned, which monospaced cells keep.
 std::vector<std::vector<std::string>> aligned_rows(const Table& table) {
   std::vector<std::vector<std::string>> rows = table.rows;
@@ -28,27 +30,28 @@ std::vector<std::vector<std::string>> aligned_rows(const Table& table) {
 
 std::string class_of(const std::string& column, const std::string& cell) {
   if (column == "Identifiable") return cell == "yes" ? "good" : "bad";
-  if (column == "Unit") return "unit";
+  if (column == "Unit" || column == "unit") return "unit";
+  if (cell.size() > kLongestNumber) return "";
   const bool interval = cell.starts_with('[') && cell.find_first_of("0123456789") != std::string::npos;
-  return (is_number(cell.substr(std::min(cell.size(), cell.find_first_not_of(' ')))) || interval) &&
-                 column != "Unit"
-             ? "number"
-             : "";
+  return is_number(cell.substr(std::min(cell.size(), cell.find_first_not_of(' ')))) || interval ? "number"
+                                                                                                : "";
 }
 
 std::string cell_of(const std::string& css_class, const std::string& text) {
   return (css_class.empty() ? "<td>" : "<td class=\"" + css_class + "\">") + escape_html(text) + "</td>";
 }
 
-std::string head_of(const Table& table, const std::string& caption) {
-  std::string out = "<div class=\"scroll\" tabindex=\"0\"><table>";
-  if (!caption.empty()) out += "<caption>" + escape_html(caption) + "</caption>";
+std::string head_of(const Table& table, const std::string& caption, const std::string& kind = "") {
+  std::string out = "<div class=\"scroll" + kind + "\" tabindex=\"0\"><table>";
+  if (!caption.empty()) out += "<caption>" + html_text(caption) + "</caption>";
   out += "<thead><tr>";
-  for (const std::string& name : table.columns) out += "<th scope=\"col\">" + escape_html(name) + "</th>";
+  for (const std::string& name : table.columns) out += "<th scope=\"col\">" + html_text(name) + "</th>";
   return out + "</tr></thead>\n<tbody>\n";
 }
 
 }  // namespace
+
+std::string html_text(const std::string& text) { return escape_html(pretty_unit(text)); }
 
 std::string html_table(const Table& table, const std::string& caption) {
   if (table.columns.empty()) return "";
@@ -57,8 +60,8 @@ std::string html_table(const Table& table, const std::string& caption) {
     out += "<tr>";
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string& column = c < table.columns.size() ? table.columns[c] : "";
-      out += c == 0 ? "<th scope=\"row\">" + escape_html(row[c]) + "</th>"
-                    : cell_of(class_of(column, row[c]), column == "Unit" ? pretty_unit(row[c]) : row[c]);
+      out += c == 0 ? "<th scope=\"row\">" + html_text(row[c]) + "</th>"
+                    : cell_of(class_of(column, row[c]), pretty_unit(row[c]));
     }
     out += "</tr>\n";
   }
@@ -66,7 +69,7 @@ std::string html_table(const Table& table, const std::string& caption) {
 }
 
 std::string verbatim_table(const Table& table) {
-  std::string out = head_of(table, "");
+  std::string out = head_of(table, "", " machine");
   for (const auto& row : table.rows)
     out += "<tr><th scope=\"row\">" + escape_html(row.at(0)) + "</th>" + cell_of("verbatim", row.at(1)) +
            "</tr>\n";

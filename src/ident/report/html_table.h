@@ -7,6 +7,9 @@
 
 namespace ident {
 
+/// Text of people, escaped, with raised powers.
+std::string html_text(const std::string& text);
+
 std::string html_table(const Table& table, const std::string& caption);
 
 /// Two columns whose second is machine text that may break anywhere.

@@ -53,6 +53,15 @@ void MarkdownWriter::heading(int level, const std::string& text) {
   text_ += std::string(static_cast<std::size_t>(level), '#') + " " + escape_markdown(text) + "\n\n";
 }
 
+void MarkdownWriter::paragraphs(const std::string& text) {
+  for (const std::string& paragraph : paragraphs_of(text)) {
+    const std::vector<std::string> lines = lines_of(paragraph);
+    for (const std::string& line : lines)
+      text_ += (lines.size() > 1 ? "* " : "") + escape_markdown(line) + "\n";
+    text_ += "\n";
+  }
+}
+
 std::string MarkdownWriter::picture_name(const std::string& chapter, const std::string& plot_id) {
   const std::string base = plain(chapter) + "-" + plain(plot_id);
   std::string name = base;
@@ -74,8 +83,7 @@ void MarkdownWriter::figure(const Plot& plot, const std::string& chapter) {
 
 void MarkdownWriter::section(const Section& section, const std::string& chapter, int level) {
   heading(level, section.title);
-  for (const std::string& paragraph : paragraphs_of(section.text))
-    text_ += escape_markdown(paragraph) + "\n\n";
+  paragraphs(section.text);
   for (const Table& table : section.tables) {
     if (!table.title.empty()) text_ += "**" + escape_markdown(table.title) + "**\n\n";
     text_ += table_of(table);
@@ -83,25 +91,25 @@ void MarkdownWriter::section(const Section& section, const std::string& chapter,
   for (const Plot& plot : section.plots) figure(plot, chapter);
 }
 
+void MarkdownWriter::parameters(const Result& result, int level) {
+  if (result.parameters.empty()) return;
+  heading(level, "Parameters");
+  text_ += table_of(parameter_table(result));
+  for (const std::string& line : not_identifiable(result)) text_ += "* " + escape_markdown(line) + "\n";
+  text_ += "\n";
+}
+
 void MarkdownWriter::chapter(const Result& result, int level) {
   heading(level, title_of(result));
-  for (const std::string& paragraph : paragraphs_of(result.verdict))
-    text_ += escape_markdown(paragraph) + "\n\n";
-  if (!result.parameters.empty()) {
-    heading(level + 1, "Parameters");
-    text_ += table_of(parameter_table(result));
-    for (const std::string& line : not_identifiable(result)) text_ += "* " + escape_markdown(line) + "\n";
-    text_ += "\n";
-  }
+  paragraphs(verdict_of(result));
+  if (!is_diagnosis(result)) parameters(result, level + 1);
   heading(level + 1, "Checks and warnings");
-  for (const Warning& warning : result.warnings)
-    text_ += "* **" + escape_markdown(warning.code) + "**: " + escape_markdown(warning.message) + "\n";
+  for (const Findings& kind : findings_by_kind(result))
+    for (const std::string& message : kind.messages)
+      text_ += "* **" + escape_markdown(kind.code) + "**: " + escape_markdown(message) + "\n";
   text_ += result.warnings.empty() ? "No warnings.\n\n" : "\n";
-  if (const Table fit = fit_table(result); !fit.rows.empty()) {
-    heading(level + 1, "Fit");
-    text_ += table_of(fit);
-  }
-  for (const Section& part : result.sections) section(part, result.command, level + 1);
+  for (const Section& part : sections_in_order(result)) section(part, result.command, level + 1);
+  if (is_diagnosis(result)) parameters(result, level + 1);
   if (result.correlation.size() > 0) {
     heading(level + 1, "Correlation");
     text_ += table_of(correlation_table(result));

@@ -26,6 +26,8 @@ class MarkdownWriter {
   const std::vector<Picture>& pictures() const { return pictures_; }
 
  private:
+  void paragraphs(const std::string& text);
+  void parameters(const Result& result, int level);
   void section(const Section& section, const std::string& chapter, int level);
   void figure(const Plot& plot, const std::string& chapter);
   std::string picture_name(const std::string& chapter, const std::string& plot_id);

@@ -42,6 +42,18 @@ double draw_legend(Svg& svg, const std::vector<LegendEntry>& legend, double left
   return y + 8;
 }
 
+bool two_lines(const std::string& text, double room) {
+  return label_width(text) > room && text.rfind(" [") != std::string::npos;
+}
+
+/// The label of the vertical axis, its unit on a line of its own where both together are too long.
+void draw_side_label(Svg& svg, const std::string& text, double middle, double room) {
+  if (!two_lines(text, room)) return svg.text({14, middle}, text, "middle label", -90);
+  const std::size_t unit = text.rfind(" [");
+  svg.text({11, middle}, text.substr(0, unit), "middle label", -90);
+  svg.text({26, middle}, text.substr(unit + 1), "middle label", -90);
+}
+
 }  // namespace
 
 double PlotFrame::draw(Svg& svg, const std::vector<LegendEntry>& legend) {
@@ -50,7 +62,10 @@ double PlotFrame::draw(Svg& svg, const std::vector<LegendEntry>& legend) {
   const std::string bottom = with_factor(pretty_unit(sideways ? across_label : along_label), horizontal);
   const std::string side = with_factor(pretty_unit(sideways ? along_label : across_label), vertical);
 
-  const double left = std::max(30.0, widest(vertical) + kTickGap + 6) + (side.empty() ? 0 : 24);
+  const double left =
+      std::max(30.0, widest(vertical) + kTickGap + 6) + (side.empty()                    ? 0
+                                                         : two_lines(side, inner_height) ? 36
+                                                                                         : 24);
   corner = {left, kTop + draw_legend(svg, legend, left, kPaperWidth - kRight)};
   width = kPaperWidth - kRight - left;
   height = inner_height;
@@ -71,7 +86,7 @@ double PlotFrame::draw(Svg& svg, const std::vector<LegendEntry>& legend) {
   svg.line({corner.x, base}, {corner.x + width, base}, "axis");
   svg.line({corner.x, corner.y}, {corner.x, base}, "axis");
   if (!bottom.empty()) svg.text({corner.x + width / 2, base + kLabelGap}, bottom, "middle label");
-  if (!side.empty()) svg.text({14, corner.y + height / 2}, side, "middle label", -90);
+  if (!side.empty()) draw_side_label(svg, side, corner.y + height / 2, height);
   return base + (bottom.empty() ? 26 : 48);
 }
 

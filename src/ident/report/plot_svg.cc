@@ -208,7 +208,7 @@ std::string draw_plot(const Plot& plot, const std::string& id, const std::string
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     if (const Series& s = plot.series[i]; !s.name.empty())
-      legend.push_back({s.name, class_of(s, colours[i])});
+      legend.push_back({pretty_unit(s.name), class_of(s, colours[i])});
   Svg svg;
   PlotFrame frame = frame_of(plot);
   const double height = frame.draw(svg, plot.series.size() > 1 ? legend : std::vector<LegendEntry>{});

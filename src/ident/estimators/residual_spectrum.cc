@@ -1,0 +1,82 @@
+// Welch's method with a direct Fourier sum, which is fast enough for segments of this length.
+#include "ident/estimators/residual_spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace ident {
+namespace {
+
+constexpr std::size_t kLongest = 512;  // samples in a segment
+// Hann windows that overlap by half share a sixth of their squared weight: so many segments are worth one
+// less.
+constexpr double kIndependent = 9.0 / 11.0;
+
+std::vector<double> hann(std::size_t n) {
+  std::vector<double> w(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double s = std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    w[i] = s * s;
+  }
+  return w;
+}
+
+/// Quantile of a chi-squared variable over its degrees of freedom, by Wilson and Hilferty; `z` of the normal.
+double chi_squared_share(double degrees, double z) {
+  const double spread = 2.0 / (9.0 * degrees);
+  return std::pow(std::max(0.0, 1.0 - spread + z * std::sqrt(spread)), 3.0);
+}
+
+}  // namespace
+
+Spectrum spectrum_of(std::span<const double> residual, double interval) {
+  Spectrum out;
+  std::vector<double> y(residual.begin(), residual.end());
+  double power = 0.0;
+  for (double& v : y) v = std::isfinite(v) ? v : 0.0, power += v * v;
+  const std::size_t length = std::min(kLongest, y.size());
+  if (length < 16 || !(interval > 0.0)) return out;
+  const std::vector<double> window = hann(length);
+  double weight = 0.0;
+  for (const double w : window) weight += w * w;
+
+  out.density.assign(length / 2, 0.0);
+  double segments = 0.0;
+  for (std::size_t start = 0; start + length <= y.size(); start += length / 2, ++segments)
+    for (std::size_t f = 1; f <= length / 2; ++f) {
+      const std::complex<double> turn =
+          std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(f) / static_cast<double>(length));
+      std::complex<double> phase = 1.0, sum = 0.0;
+      for (std::size_t i = 0; i < length; ++i, phase *= turn) sum += window[i] * y[start + i] * phase;
+      out.density[f - 1] += 2.0 * std::norm(sum) * interval / weight;
+    }
+  for (std::size_t f = 1; f <= length / 2; ++f) {
+    out.frequency.push_back(static_cast<double>(f) / (static_cast<double>(length) * interval));
+    out.density[f - 1] /= segments;
+  }
+  const double degrees = 2.0 * std::max(1.0, kIndependent * segments);
+  out.white = 2.0 * interval * power / static_cast<double>(y.size());
+  out.low = out.white * chi_squared_share(degrees, -1.96);
+  out.high = out.white * chi_squared_share(degrees, 1.96);
+  return out;
+}
+
+Plot spectrum_plot(const ResidualNames& names, std::span<const double> residual, double interval) {
+  const Spectrum s = spectrum_of(residual, interval);
+  Series band{.name = "white noise, 95 %", .style = Series::Style::band};
+  if (!s.frequency.empty())
+    band.x = {s.frequency.front(), s.frequency.back()}, band.y = {s.low, s.low}, band.y2 = {s.high, s.high};
+  return {
+      .id = names.id + "-spectrum",
+      .title = "Spectrum of the residuals of " + names.channel,
+      .caption = "Power above the band at a frequency is what the model does not explain there.",
+      .x_label = "frequency [Hz]",
+      .y_label = "density [(" + names.unit + ")^2/Hz]",
+      .log_x = true,
+      .log_y = true,
+      .series = {std::move(band), {.name = names.channel + " residual", .x = s.frequency, .y = s.density}}};
+}
+
+}  // namespace ident
