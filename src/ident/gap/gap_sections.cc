@@ -1,190 +1,206 @@
-// Where the residual lies, by channel, regime, frequency band and time; and the sections of the report.
+// Tells a diagnosis: how far the gap closes, which causes, where it lies, and what was tried.
 #include "ident/gap/gap_sections.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <numbers>
 
 #include "ident/core/format_number.h"
+#include "ident/effects/catalogue.h"
+#include "ident/gap/gap_pictures.h"
 
 namespace ident {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
 using Json = nlohmann::ordered_json;
 
-double rounded(double x) { return std::round(1e4 * x) / 1e4; }
+constexpr double kMuch = 0.4;  // share of a quarter of the flight that is worth a sentence
 
-// Power of the residual per row, each channel over its noise, the noise itself taken off.
-VectorXd power(const ResidualWrench& w) {
-  VectorXd sum = VectorXd::Zero(w.residual.rows());
-  for (Index c = 0; c < w.residual.cols(); ++c) sum += (w.residual.col(c) / w.noise[c]).cwiseAbs2();
-  return (sum.array() - static_cast<double>(w.residual.cols())).matrix();
+double number(const Json& j) { return j.is_number() ? j.get<double>() : kNaN; }
+
+std::string percent(const Json& share) {
+  return std::isfinite(number(share)) ? fmt::format("{:.0f}", 100 * number(share)) : "–";
 }
 
-Json regimes(const ResidualWrench& w, const VectorXd& excess) {
-  Json out = Json::array();
-  const double total = std::max(excess.sum(), 1e-12);
-  for (const auto& [name, x] : w.regimes) {
-    std::vector<double> sorted(x.data(), x.data() + x.size());
-    std::ranges::sort(sorted);
-    double best = -1e300;
-    Json top;
-    for (int bin = 0; bin < 4; ++bin) {
-      const double low = sorted[sorted.size() * static_cast<std::size_t>(bin) / 4];
-      const double high =
-          sorted[std::min(sorted.size() - 1, sorted.size() * static_cast<std::size_t>(bin + 1) / 4)];
-      double share = 0;
-      for (Index k = 0; k < x.size(); ++k)
-        if (x[k] >= low && (x[k] < high || bin == 3)) share += excess[k];
-      share /= total;
-      if (share > best)
-        best = share, top = {{"variable", name},
-                             {"bin", {rounded(low), rounded(high)}},
-                             {"share", std::clamp(rounded(share), 0.0, 1.0)},
-                             {"chance", 0.25}};
-    }
-    if (!top.is_null()) out.push_back(top);
+std::vector<std::string> words(const Json& list) { return list.get<std::vector<std::string>>(); }
+
+std::string number_text(const Json& j, int digits = 3) { return format_number(number(j), digits); }
+
+std::string value_text(const Json& parameter) {
+  return format_with_uncertainty(number(parameter["value"]), number(parameter["std"])) +
+         (parameter["unit"] == "-" ? "" : " " + parameter["unit"].get<std::string>());
+}
+
+/// The causes of the verdict, or the nearest ones where nothing explains the gap.
+std::vector<std::string> causes_of(const Json& found) {
+  const Json& verdict = found["verdict"];
+  std::vector<std::string> effects = words(verdict["effects"]);
+  return effects.empty() && verdict["status"] == "unknown" ? words(verdict["confused_with"]) : effects;
+}
+
+std::string how_far(const Json& gap, const std::string& causes) {
+  std::string text = fmt::format("Half a second ahead the model as given misses by {} times the sensor noise",
+                                 number_text(gap["before"]));
+  if (!causes.empty()) text += fmt::format("; with {} in it, by {} times", causes, number_text(gap["after"]));
+  text += fmt::format(
+      ". A perfect model would miss by {}, because sensors are noisy and nobody knows exactly how a window "
+      "begins.",
+      number_text(gap["noise_floor"]));
+  if (causes.empty()) return text;
+  if (!std::isfinite(number(gap["closed"]))) return text + " At this horizon there was no gap to close.";
+  return text + fmt::format(" That closes {} % of the gap (95 %: {} to {} %).", percent(gap["closed"]),
+                            percent(gap["closed_ci95"][0]), percent(gap["closed_ci95"][1]));
+}
+
+Table horizon_table(const Json& gap) {
+  Table table{.title = "By how far ahead",
+              .columns = {"horizon [s]", "as given", "left", "noise floor", "closed [%]", "95 % interval"}};
+  if (!gap.contains("horizons")) return table;
+  for (const Json& h : gap["horizons"])
+    table.rows.push_back(
+        {number_text(h["horizon"]), number_text(h["before"]), number_text(h["after"]),
+         number_text(h["noise_floor"]), percent(h["closed"]),
+         fmt::format("[{}, {}]", percent(h["closed_ci95"][0]), percent(h["closed_ci95"][1]))});
+  return table;
+}
+
+Section how_section(const Json& found, const std::string& causes) {
+  return {.title = "How far the gap closes",
+          .text = how_far(found["gap"], causes),
+          .tables = {horizon_table(found["gap"])},
+          .plots = {waterfall_plot(found, causes)}};
+}
+
+const Json* candidate(const Json& found, const std::string& name) {
+  const Json& list = found["candidates"];
+  const auto at = std::ranges::find_if(list, [&](const Json& c) { return c["effect"] == name; });
+  return at == list.end() ? nullptr : &*at;
+}
+
+/// What a named cause is, how large it was found, and what to fly to be sure of it.
+void add_cause(Table& table, const Json& found, const std::string& name) {
+  std::string size;
+  if (const Json* c = candidate(found, name))
+    for (const auto& [parameter, value] : (*c)["parameters"].items())
+      size += (size.empty() ? "" : "; ") + parameter + " = " + value_text(value);
+  table.rows.push_back({name, "size", size.empty() ? "–" : size});
+  const EffectEntry* effect = find_effect(name);
+  if (effect == nullptr) return;
+  table.rows.push_back({"", "equation", std::string(effect->info.equation)});
+  table.rows.push_back({"", "looks like", std::string(effect->info.looks_like)});
+  table.rows.push_back({"", "to be sure", std::string(effect->info.split_by)});
+}
+
+Section which_section(const Json& found) {
+  Section section{.title = "Which causes"};
+  Table table{.title = "The causes named", .columns = {"cause", "", "what is known"}};
+  for (const char* list : {"effects", "confused_with"})
+    for (const std::string& name : words(found["verdict"][list])) add_cause(table, found, name);
+  if (!table.rows.empty()) section.tables.push_back(std::move(table));
+  if (Plot plot = probability_plot(found["candidates"]); !plot.series.empty())
+    section.plots.push_back(std::move(plot));
+  return section;
+}
+
+std::string where_text(const Json& where) {
+  const Json& channels = where["channels"];
+  if (channels.empty() || !(number(channels[0]["share"]) > 0)) return "No channel stands above its noise.";
+  std::string text = fmt::format("{} % of it is in {}.", percent(channels[0]["share"]),
+                                 channels[0]["name"].get<std::string>());
+  if (const Json& regimes = where["regimes"]; !regimes.empty() && number(regimes[0]["share"]) > kMuch) {
+    const std::string variable = regimes[0]["variable"], unit = regime_unit(variable);
+    text += fmt::format(" {} % of it lies in the quarter of the flight with {} from {} to {}{}.",
+                        percent(regimes[0]["share"]), variable, number_text(regimes[0]["bin"][0]),
+                        number_text(regimes[0]["bin"][1]), unit == "-" ? "" : " " + unit);
   }
-  std::stable_sort(out.begin(), out.end(), [](const Json& a, const Json& b) {
-    return a["share"].get<double>() > b["share"].get<double>();
-  });
-  return out;
-}
-
-Json bands(const ResidualWrench& w) {
-  const Index n = w.residual.rows();
-  if (n < 32) return Json::array();
-  const double span = std::max((w.t.back() - w.t.front()), 1e-6), dt = span / static_cast<double>(n - 1);
-  const std::array<double, 6> edges{0.0, 0.1, 0.3, 1.0, 3.0, 0.5 / dt};
-  std::array<double, 5> sum{};
-  const Index use = std::min<Index>(n, 512);
-  for (Index c = 0; c < w.residual.cols(); ++c)
-    for (Index f = 0; f < use / 2; ++f) {
-      std::complex<double> z = 0;
-      for (Index k = 0; k < use; ++k)
-        z += w.residual(k, c) / w.noise[c] *
-             std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(f * k) / static_cast<double>(use));
-      const double hz = static_cast<double>(f) / (static_cast<double>(use) * dt),
-                   p = std::norm(z) / static_cast<double>(use);
-      for (std::size_t b = 0; b < 5; ++b)
-        if (hz >= edges[b] && hz < edges[b + 1]) sum[b] += std::max(p - 1, 0.0);
-    }
-  double total = 1e-12;
-  for (const double s : sum) total += s;
-  Json out = Json::array();
-  for (std::size_t b = 0; b < 5; ++b)
-    if (edges[b + 1] > edges[b])
-      out.push_back({{"hz", {edges[b], rounded(edges[b + 1])}}, {"share", rounded(sum[b] / total)}});
-  return out;
-}
-
-Json times(const ResidualWrench& w, const VectorXd& excess) {
-  Json out = Json::array();
-  const double total = std::max(excess.cwiseMax(0.0).sum(), 1e-12);
-  std::size_t k = 0;
-  while (k < w.t.size()) {
-    const double from = w.t[k];
-    const int log = w.log[k];
-    double sum = 0, to = from;
-    for (; k < w.t.size() && w.log[k] == log && w.t[k] < from + 5; ++k)
-      sum += std::max(excess[static_cast<Index>(k)], 0.0), to = w.t[k];
-    out.push_back(
-        {{"log", log + 1}, {"from", rounded(from)}, {"to", rounded(to)}, {"share", rounded(sum / total)}});
+  const auto share = [](const Json& band) { return number(band["share"]); };
+  if (const Json& bands = where["bands"]; !bands.empty()) {
+    const Json& top = *std::ranges::max_element(bands, {}, share);
+    if (share(top) > 0) text += fmt::format(" {} % of it is at {}.", percent(top["share"]), band_name(top));
   }
-  std::stable_sort(out.begin(), out.end(), [](const Json& a, const Json& b) {
-    return a["share"].get<double>() > b["share"].get<double>();
-  });
-  if (out.size() > 6) out.erase(out.begin() + 6, out.end());
-  return out;
+  return text;
+}
+
+Table channel_table(const Json& where) {
+  Table table{.title = "Residual force and moment",
+              .columns = {"channel", "rms", "noise", "unit", "share [%]"}};
+  for (const Json& c : where["channels"])
+    table.rows.push_back({c["name"], number_text(c["rms"]), number_text(c["noise"]), channel_unit(c["name"]),
+                          percent(c["share"])});
+  return table;
+}
+
+Table regime_table(const Json& where) {
+  Table table{.title = "In which quarter of the flight (by chance 25 % each)",
+              .columns = {"variable", "from", "to", "unit", "share [%]"}};
+  for (const Json& r : where["regimes"])
+    table.rows.push_back({r["variable"], number_text(r["bin"][0]), number_text(r["bin"][1]),
+                          regime_unit(r["variable"]), percent(r["share"])});
+  return table;
+}
+
+Table time_table(const Json& where) {
+  Table table{.title = "When", .columns = {"log", "from [s]", "to [s]", "share [%]"}};
+  for (const Json& t : where["times"])
+    table.rows.push_back({t.contains("log") ? t["log"].dump() : "1", number_text(t["from"], 4),
+                          number_text(t["to"], 4), percent(t["share"])});
+  return table;
+}
+
+Section where_section(const Json& found, const ResidualWrench& before, const ResidualWrench& after) {
+  const Json& where = found["where"];
+  Section section{.title = "Where the gap lies",
+                  .text = where_text(where),
+                  .tables = {channel_table(where), regime_table(where), time_table(where)},
+                  .plots = {channel_plot(where), band_plot(where)}};
+  if (!where["channels"].empty() && !where["regimes"].empty()) {
+    const auto top = std::ranges::find(before.names, where["channels"][0]["name"].get<std::string>());
+    section.plots.push_back(
+        residual_over_regime(before, after, top - before.names.begin(), where["regimes"][0]["variable"]));
+  }
+  return section;
+}
+
+Section tried_section(const Json& found) {
+  Table table{.title = "Every cause, and the size that would have been seen",
+              .columns = {"cause", "probability", "evidence", "would have been seen"}};
+  for (const Json& c : found["candidates"]) {
+    std::string limits;
+    for (const auto& [name, limit] : c["detection_limit"].items())
+      limits += (limits.empty() ? "" : ", ") + name.substr(name.find('.') + 1) + " " + number_text(limit, 2);
+    table.rows.push_back({c["effect"], fmt::format("{:.3f}", number(c["probability"])),
+                          c.contains("evidence") ? fmt::format("{:.1f}", number(c["evidence"])) : "–",
+                          limits});
+  }
+  return {.title = "What was tried",
+          .text =
+              "The last column is the size that would have been found in these logs in nine of ten cases; "
+              "evidence is the fall of the misfit with that cause alone.",
+          .tables = {std::move(table)}};
+}
+
+Section traces(const ResidualWrench& before, const ResidualWrench& after) {
+  Section section{.title = "The residual over time",
+                  .text = "Force and moment on the body that the model does not explain, in the first log."};
+  for (Index c = 0; c < std::min<Index>(before.residual.cols(), 6); ++c)
+    section.plots.push_back(residual_over_time(before, after, c));
+  return section;
 }
 
 }  // namespace
 
-Json where_json(const ResidualWrench& w) {
-  Json out;
-  const VectorXd rms = w.rms(), excess = w.excess();
-  const double total = std::max(excess.sum(), 1e-12);
-  Json channels = Json::array();
-  for (Index c = 0; c < rms.size(); ++c)
-    channels.push_back({{"name", w.names[static_cast<std::size_t>(c)]},
-                        {"rms", rms[c]},
-                        {"noise", w.noise[c]},
-                        {"share", rounded(excess[c] / total)}});
-  std::stable_sort(channels.begin(), channels.end(), [](const Json& a, const Json& b) {
-    return a["share"].get<double>() > b["share"].get<double>();
-  });
-  out["channels"] = channels;
-  const VectorXd p = power(w);
-  out["regimes"] = regimes(w, p);
-  out["bands"] = bands(w);
-  out["times"] = times(w, p);
-  return out;
-}
-
 std::vector<Section> gap_sections(const Json& found, const ResidualWrench& before,
                                   const ResidualWrench& after) {
-  std::vector<Section> out;
-  Section how;
-  how.title = "How far the gap closes";
-  Plot waterfall;
-  waterfall.id = "waterfall", waterfall.title = "Prediction error over 0.5 s on held-out flight";
-  waterfall.y_label = "error over sensor noise [-]";
-  Series bars{"error", {}, {}, {}, Series::Style::bars};
-  const auto value = [&](const char* key) {
-    return found["gap"][key].is_null() ? kNaN : found["gap"][key].get<double>();
-  };
-  bars.x = {0, 1, 2}, bars.y = {value("before"), value("after"), value("noise_floor")};
-  waterfall.series = {bars};
-  waterfall.column_names = {"before", "after", "noise floor"};
-  how.plots.push_back(waterfall);
-  out.push_back(how);
-  Section where;
-  where.title = "Where the gap lies";
-  Table channels{"Residual force and moment", {"channel", "rms", "noise", "share %"}, {}};
-  for (const Json& c : found["where"]["channels"])
-    channels.rows.push_back({c["name"], format_number(c["rms"], 3), format_number(c["noise"], 3),
-                             fmt::format("{:.0f}", 100 * c["share"].get<double>())});
-  where.tables.push_back(channels);
-  Table regimes{"Where in the flight", {"variable", "from", "to", "share %", "chance %"}, {}};
-  for (const Json& c : found["where"]["regimes"])
-    regimes.rows.push_back({c["variable"], format_number(c["bin"][0], 3), format_number(c["bin"][1], 3),
-                            fmt::format("{:.0f}", 100 * c["share"].get<double>()), "25"});
-  where.tables.push_back(regimes);
-  for (Index c = 0; c < std::min<Index>(before.residual.cols(), 6); ++c) {
-    Plot plot;
-    const std::string& name = before.names[static_cast<std::size_t>(c)];
-    plot.id = "residual_" + name, plot.title = "Residual " + name, plot.kind = Plot::Kind::time_series;
-    plot.x_label = "time [s]", plot.y_label = name + (c < 3 ? " [N]" : " [N m]");
-    Series a{"before", {}, {}, {}, Series::Style::measured}, b{"after", {}, {}, {}, Series::Style::predicted};
-    for (Index k = 0; k < before.residual.rows() && before.log[static_cast<std::size_t>(k)] == 0; ++k)
-      a.x.push_back(before.t[static_cast<std::size_t>(k)]), a.y.push_back(before.residual(k, c));
-    for (Index k = 0; k < after.residual.rows() && after.log[static_cast<std::size_t>(k)] == 0; ++k)
-      b.x.push_back(after.t[static_cast<std::size_t>(k)]), b.y.push_back(after.residual(k, c));
-    plot.series = {a, b};
-    where.plots.push_back(plot);
-  }
-  out.push_back(where);
-  Section which;
-  which.title = "Which causes were tried";
-  Table table{"Every cause, with the size that would have been seen",
-              {"cause", "probability", "evidence", "would have seen"},
-              {}};
-  for (const Json& c : found["candidates"]) {
-    std::string limits;
-    for (const auto& [name, limit] : c["detection_limit"].items())
-      limits += (limits.empty() ? "" : ", ") + name.substr(name.find('.') + 1) + " " +
-                (limit.is_null() ? "-" : format_number(limit.get<double>(), 2));
-    table.rows.push_back({c["effect"], fmt::format("{:.3f}", c["probability"].get<double>()),
-                          fmt::format("{:.1f}", c["evidence"].get<double>()), limits});
-  }
-  which.tables.push_back(table);
-  out.push_back(which);
-  return out;
+  const std::string causes = fmt::format("{}", fmt::join(causes_of(found), " and "));
+  std::vector<Section> sections{how_section(found, causes)};
+  if (Section which = which_section(found); !which.tables.empty() || !which.plots.empty())
+    sections.push_back(std::move(which));
+  sections.push_back(where_section(found, before, after));
+  sections.push_back(tried_section(found));
+  sections.push_back(traces(before, after));
+  return sections;
 }
 
 }  // namespace ident

@@ -165,8 +165,9 @@ std::vector<Section> sections_in_order(const Result& result) {
     health.push_back(files_as_read(result.extra.at("notices")));
   if (const Table fit = fit_table(result); !fit.rows.empty())
     health.push_back({.title = "Fit", .tables = {{.columns = fit.columns, .rows = fit.rows}}});
-  health.insert(health.end(), rest.begin(), rest.end());
-  return health;
+  const bool data_first = !is_diagnosis(result);
+  rest.insert(data_first ? rest.begin() : rest.end(), health.begin(), health.end());
+  return rest;
 }
 
 std::vector<std::string> paragraphs_of(const std::string& text) {

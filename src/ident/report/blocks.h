@@ -17,7 +17,7 @@ std::string verdict_of(const Result& result);
 Table parameter_table(const Result& result);
 
 /// The parts after the findings, in the order in which they are read: data health, the digest of the fit,
-/// then what the command has to show.
+/// then what the command has to show, which comes first in a diagnosis.
 std::vector<Section> sections_in_order(const Result& result);
 
 /// Findings of one kind together, in the order in which the kinds appear.
@@ -43,7 +43,7 @@ std::vector<std::string> paragraphs_of(const std::string& text);
 /// The lines of a paragraph; more than one make a list.
 std::vector<std::string> lines_of(const std::string& paragraph);
 
-/// A diagnosis is about causes: its parameters come after its pictures.
+/// A diagnosis is about causes: its parameters and the health of its data come after its pictures.
 bool is_diagnosis(const Result& result);
 
 /// "ident flightlog --refine" from the command, as the title of a page or a chapter.
