@@ -35,7 +35,7 @@ TEST(BenchCampaign, ThrustConstantsAreSoWithOutliers) {
   expect_honest(thrust_campaign(kRuns, 22, {.outliers = 0.01}));
 }
 
-TEST(BenchCampaign, DISABLED_ThrustConstantsAreHonestInColouredNoise) {
+TEST(BenchCampaign, ThrustConstantsAreHonestInColouredNoise) {
   expect_honest(thrust_campaign(kRuns, 23, {.rho = 0.9}), 0.91);
 }
 

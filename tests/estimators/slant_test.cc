@@ -97,7 +97,7 @@ TEST(Slant, ADegreeOfMountingErrorCostsYawAsDerived) {
   EXPECT_NEAR(mounting_trim(v, 0.17, a, e), 1 - std::tan(a) / std::tan(a + e), 1e-12);
 }
 
-TEST(Slant, DISABLED_NumbersAreInTheResult) {
+TEST(Slant, NumbersAreInTheResult) {
   const Vehicle v = slanted_vehicle(6e-6, 5.15e-8, 0.17);
   const Result result = estimate_slant(v);
   const Parameter* alpha = result.find("alpha_opt");

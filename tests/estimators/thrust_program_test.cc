@@ -55,7 +55,7 @@ TEST(ThrustProgram, AMissingColumnIsBadInputAndAnEmptyOneIsNotEnoughData) {
   EXPECT_EQ(still.out, "");
 }
 
-TEST(ThrustProgram, DISABLED_ACampaignNeedsNoFileAndKeepsWhatWasFound) {
+TEST(ThrustProgram, ACampaignNeedsNoFileAndKeepsWhatWasFound) {
   const std::string folder = test_folder();
   write_text(folder, "sweep.csv", thrust_csv());
   write_text(folder, "v.yaml", "mass: 1.0\nlayout: plus\narm: 0.2\npropeller_radius: 0.1\n");

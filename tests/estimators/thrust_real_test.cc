@@ -24,7 +24,7 @@ std::vector<std::string> files_of(const std::string& folder, const std::string& 
 }
 
 // The bounds: the same propeller on three motors.
-TEST(RealThrust, DISABLED_EveryEscTestLogGivesItsConstantsAndItsMisfit) {
+TEST(RealThrust, EveryEscTestLogGivesItsConstantsAndItsMisfit) {
   IDENT_NEEDS_REAL_DATA(folder);
   for (const std::string& file : files_of(folder + "/bench/esc_test", "Log")) {
     const Result result = estimate_thrust({read_table(file, thrust_schema())});

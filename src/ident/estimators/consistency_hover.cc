@@ -21,9 +21,9 @@ double at_least(const Vehicle& vehicle, const std::string& name) {
   return vehicle.has(name) ? vehicle.value(name) : 0.0;
 }
 
-/// Vertical force and three moments for 1 N on each rotor.
+/// Vertical force and moments for 1 N on each rotor: three, or without kQ roll and pitch alone.
 Eigen::MatrixXd balance(const Vehicle& vehicle) {
-  return rotor_wrenches(vehicle, slant_angle(vehicle)).bottomRows(4);
+  return rotor_wrenches(vehicle, slant_angle(vehicle)).middleRows(2, vehicle.has("kQ") ? 4 : 3);
 }
 
 /// (2), and speed and command from it.
@@ -31,12 +31,13 @@ void check_trim(const Vehicle& vehicle, double weight, Consistency& found) {
   const std::string what = "hover trim";
   const Eigen::MatrixXd B = balance(vehicle);
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(B);
-  const Eigen::Vector4d wanted(-weight, 0.0, 0.0, 0.0);
+  const Eigen::VectorXd wanted = -weight * Eigen::VectorXd::Unit(B.rows(), 0);
   const Eigen::VectorXd T = solver.solve(wanted);
   const double left = (B * T - wanted).norm() / weight;
   if (left > 1e-6)
     return found.violated(what, {"no_hover_trim",
-                                 "no thrusts of these rotors balance weight and all three moments",
+                                 fmt::format("no thrusts of these rotors balance weight and all {} moments",
+                                             B.rows() == 4 ? "three" : "tilting"),
                                  {{"unbalanced_over_weight", left}}});
   const Eigen::Index N = B.cols();
   if (T.minCoeff() <= 0.0) {
@@ -98,7 +99,7 @@ void check_hover(const Vehicle& vehicle, Consistency& found) {
     return found.cannot_be_judged("hover", "rotors, mass and kT");
   const double weight = vehicle.value("m") * vehicle.g;
   check_thrust(vehicle, weight, found);
-  if (!vehicle.has("kQ")) return found.cannot_be_judged("hover trim", "kQ");
+  if (!vehicle.has("kQ")) found.cannot_be_judged("yaw at hover", "kQ");
   check_trim(vehicle, weight, found);
 }
 

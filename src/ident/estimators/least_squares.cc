@@ -82,7 +82,8 @@ class SteppedCost : public ceres::CostFunction {
     Eigen::MatrixXd J;
     if (with_jacobian) J.setZero(problem_.residuals, n_);
     const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(u[0], n_);
-    if (!problem_.evaluate(at, r, with_jacobian ? &J : nullptr) || !r.allFinite() || !J.allFinite()) return false;
+    if (!problem_.evaluate(at, r, with_jacobian ? &J : nullptr) || !r.allFinite() || !J.allFinite())
+      return false;
     Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = r;
     if (with_jacobian) Eigen::Map<RowMajor>(jacobians[0], r.size(), n_) = J;
     return true;

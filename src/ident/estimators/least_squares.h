@@ -73,6 +73,13 @@ struct NoiseEstimate {
   Eigen::Index used = 0, rejected = 0;
 };
 
+/// One set of level and colour of the noise that the data allow: what the solution would be with it.
+struct NoiseDraw {
+  double weight = 0.0;
+  Eigen::VectorXd shift;       ///< of the solution, in the coordinates of determined directions
+  Eigen::MatrixXd covariance;  ///< likewise
+};
+
 struct LeastSquaresFit {
   std::vector<std::string> names;
   Eigen::VectorXd x;
@@ -97,16 +104,21 @@ struct LeastSquaresFit {
   double value(const std::string& name) const { return x(index(name)); }
   double std(const std::string& name) const;
 
-  /// Standard deviation of a function of x with that gradient, and the degrees of freedom with which the
-  /// deviation itself is known (Satterthwaite).
+  /// Standard deviation of a function of x with that gradient.
   double std_of(const Eigen::VectorXd& gradient) const;
+  /// Degrees of freedom with which t95(dof) std is the half width of its interval: white noise by
+  /// Satterthwaite, coloured noise by the draws below.
   double dof_of(const Eigen::VectorXd& gradient) const;
+  /// Probability of unknowns as far from zero as these when their true values are zero.
+  double p_of_zero(const std::vector<Eigen::Index>& unknowns) const;
 
-  // What std_of and dof_of work with: covariance within the determined directions, its change along each
-  // constant of the noise, and the covariance of those constants.
+  // What these work with: directions that the data determine, covariance within them; for white noise its
+  // change along each constant of the noise with the covariance of those constants, for coloured noise draws.
+  Eigen::MatrixXd directions;
   Eigen::MatrixXd determined_covariance;
   std::vector<Eigen::MatrixXd> covariance_slopes;
   Eigen::MatrixXd noise_constants_covariance;
+  std::vector<NoiseDraw> noise_draws;
 };
 
 LeastSquaresFit solve_least_squares(const LeastSquaresProblem& problem,

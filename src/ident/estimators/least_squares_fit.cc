@@ -50,16 +50,18 @@ class Fitter {
 
   LeastSquaresFit run() {
     start();
+    bool search_order = true;
     for (int round = 0; round < kMostRounds; ++round) {
       const LinearisedRows rows = linearised();
-      update_noise(rows);
+      update_noise(rows, search_order);
       const bool changed = options_.robust && find_outliers(rows);
+      search_order = changed || round < 1;
       const Eigen::VectorXd before = x_;
       solve(Effort::coarse);
       if (!changed && settled(rows, before)) break;
     }
     solve(Effort::polish);
-    update_noise(linearised());
+    update_noise(linearised(), false);
     return uncertainty();
   }
 
@@ -74,8 +76,8 @@ class Fitter {
     return rows;
   }
 
-  void update_noise(const LinearisedRows& rows) {
-    noise_ = estimate_noise(problem_, options_.max_colour_order, rows, std::move(noise_));
+  void update_noise(const LinearisedRows& rows, bool order_is_free) {
+    noise_ = estimate_noise(problem_, {options_.max_colour_order, order_is_free}, rows, std::move(noise_));
     for (std::size_t g = 0; g < noise_.size(); ++g) noise_[g].sigma = std::max(noise_[g].sigma, floor_[g]);
   }
 

@@ -27,18 +27,14 @@ struct LinearisedRows {
 double whiten(const std::vector<ResidualSeries>& series, const std::vector<GroupNoise>& noise,
               const std::vector<bool>& missing, Eigen::MatrixXd& rows);
 
-/// Restricted maximum likelihood, the order of the colour by information criterion. `noise` is the start.
-std::vector<GroupNoise> estimate_noise(const LeastSquaresProblem& problem, int max_colour_order,
-                                       const LinearisedRows& rows, std::vector<GroupNoise> noise);
-
-/// Covariance of the unknowns, its derivative along each constant of the noise (log variance, then
-/// atanh of the partial autocorrelations, group by group), and the covariance of those constants.
-struct NoiseSensitivity {
-  Eigen::MatrixXd covariance;
-  std::vector<Eigen::MatrixXd> slopes;
-  Eigen::MatrixXd constants_covariance;
+/// What is looked for: with the order fixed it is that of the start.
+struct NoiseSearch {
+  int max_colour_order = 0;
+  bool order_is_free = true;
 };
-NoiseSensitivity noise_sensitivity(const LeastSquaresProblem& problem, const LinearisedRows& rows,
-                                   const std::vector<GroupNoise>& noise);
+
+/// Restricted maximum likelihood, the order of the colour by information criterion. `noise` is the start.
+std::vector<GroupNoise> estimate_noise(const LeastSquaresProblem& problem, const NoiseSearch& search,
+                                       const LinearisedRows& rows, std::vector<GroupNoise> noise);
 
 }  // namespace ident

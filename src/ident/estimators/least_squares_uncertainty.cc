@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ident/estimators/least_squares_sensitivity.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -111,6 +112,14 @@ void set_likelihood(LeastSquaresFit& fit, const LeastSquaresProblem& problem, do
   fit.degrees_of_freedom = n - fit.rank;
 }
 
+/// Second moment about the solution over all draws.
+Eigen::MatrixXd covariance_over(const std::vector<NoiseDraw>& draws) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(draws[0].shift.size(), draws[0].shift.size());
+  for (const NoiseDraw& draw : draws)
+    C += draw.weight * (draw.covariance + draw.shift * draw.shift.transpose());
+  return C;
+}
+
 }  // namespace
 
 Directions determined_directions(const Eigen::MatrixXd& weighted_J, double rank_tolerance) {
@@ -166,15 +175,22 @@ LeastSquaresFit fit_with_uncertainty(const LeastSquaresProblem& problem, const E
   Eigen::MatrixXd weighted(rows.r.size(), rows.J.cols() + 1);
   weighted << rows.J, rows.r;
   const double log_variances = whiten(problem.series, noise, rows.missing, weighted);
-  const NoiseSensitivity sensitivity = noise_sensitivity(problem, rows, noise);
+  fit.directions = V;
+  fit.noise_draws = noise_draws(problem, rows, noise);
   fit.determined_covariance =
-      V * inverse_of_square(without(weighted.leftCols(rows.J.cols()), rows.missing)) * V.transpose();
+      V *
+      (fit.noise_draws.empty() ? inverse_of_square(without(weighted.leftCols(rows.J.cols()), rows.missing))
+                               : covariance_over(fit.noise_draws)) *
+      V.transpose();
   fit.covariance = with_infinite_variance(fit.determined_covariance, directions.undetermined);
   fit.naive_covariance =
       with_infinite_variance(V * naive_covariance(problem, rows) * V.transpose(), directions.undetermined);
-  for (const Eigen::MatrixXd& slope : sensitivity.slopes)
-    fit.covariance_slopes.push_back(V * slope * V.transpose());
-  fit.noise_constants_covariance = sensitivity.constants_covariance;
+  if (fit.noise_draws.empty()) {
+    const NoiseSensitivity sensitivity = noise_sensitivity(problem, rows, noise);
+    for (const Eigen::MatrixXd& slope : sensitivity.slopes)
+      fit.covariance_slopes.push_back(V * slope * V.transpose());
+    fit.noise_constants_covariance = sensitivity.constants_covariance;
+  }
 
   fit.residuals = rows.r;
   fit.rejected = rows.missing;

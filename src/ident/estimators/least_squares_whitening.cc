@@ -33,22 +33,22 @@ Eigen::VectorXd yule_walker(const Eigen::VectorXd& phi) {
 
 }  // namespace
 
-Colour::Colour(Eigen::VectorXd partial) : partial_(std::move(partial)), phi_(coefficients(partial_)) {
-  const Eigen::VectorXd first = yule_walker(phi_);
-  covariance_.assign(first.data(), first.data() + first.size());
-  if (order() > 0)
-    while (static_cast<Eigen::Index>(covariance_.size()) <= kLongestMemory) {
-      double next = 0.0;
+Colour::Colour(Eigen::VectorXd partial)
+    : partial_(std::move(partial)), phi_(coefficients(partial_)), covariance_(yule_walker(phi_)) {}
+
+std::vector<double> Colour::covariances(Eigen::Index longest) const {
+  std::vector<double> values(covariance_.begin(), covariance_.end());
+  while (static_cast<Eigen::Index>(values.size()) <= longest) {
+    double next = 0.0;
+    if (static_cast<Eigen::Index>(values.size()) <= kLongestMemory)
       for (Eigen::Index k = 0; k < order(); ++k)
-        next += phi_(k) * covariance_[covariance_.size() - 1 - static_cast<std::size_t>(k)];
-      covariance_.push_back(next);
-    }
+        next += phi_(k) * values[values.size() - 1 - static_cast<std::size_t>(k)];
+    values.push_back(next);
+  }
+  return values;
 }
 
-double Colour::covariance(Eigen::Index lag) const {
-  return lag < static_cast<Eigen::Index>(covariance_.size()) ? covariance_[static_cast<std::size_t>(lag)]
-                                                             : 0.0;
-}
+double Colour::covariance(Eigen::Index lag) const { return covariances(lag)[static_cast<std::size_t>(lag)]; }
 
 double Colour::whiten(Eigen::Index begin, Eigen::Index end, const std::vector<bool>& missing,
                       Eigen::MatrixXd& rows) const {
@@ -79,16 +79,20 @@ double Colour::whiten(Eigen::Index begin, Eigen::Index end, const std::vector<bo
 
 Colour::Prediction Colour::predict(const std::vector<Eigen::Index>& distance) const {
   const auto known = static_cast<Eigen::Index>(distance.size());
+  Eigen::Index longest = 0;
+  for (const Eigen::Index d : distance) longest = std::max(longest, d);
+  const std::vector<double> covariance_at = covariances(longest);
+  const auto between = [&](Eigen::Index lag) { return covariance_at[static_cast<std::size_t>(lag)]; };
   Eigen::MatrixXd K(known, known);
   Eigen::VectorXd c(known);
   for (Eigen::Index a = 0; a < known; ++a) {
     const Eigen::Index d = distance[static_cast<std::size_t>(a)];
-    c(a) = covariance(d);
+    c(a) = between(d);
     for (Eigen::Index b = 0; b < known; ++b)
-      K(a, b) = covariance(std::abs(d - distance[static_cast<std::size_t>(b)]));
+      K(a, b) = between(std::abs(d - distance[static_cast<std::size_t>(b)]));
   }
   const Eigen::VectorXd weight = K.llt().solve(c);
-  return {weight, covariance(0) - c.dot(weight)};
+  return {weight, variance() - c.dot(weight)};
 }
 
 std::vector<Eigen::Index> Memory::distances(Eigen::Index row) const {

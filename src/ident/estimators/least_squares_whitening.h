@@ -20,8 +20,8 @@ class Colour {
   Eigen::Index order() const { return phi_.size(); }
   const Eigen::VectorXd& partial() const { return partial_; }
   const Eigen::VectorXd& phi() const { return phi_; }
-  double variance() const { return covariance(0); }
-  double rho() const { return covariance(1) / covariance(0); }
+  double variance() const { return covariance_(0); }
+  double rho() const { return order() > 0 ? covariance_(1) / covariance_(0) : 0.0; }
   /// Covariance of two values `lag` steps apart.
   double covariance(Eigen::Index lag) const;
 
@@ -39,8 +39,10 @@ class Colour {
   Prediction predict(const std::vector<Eigen::Index>& distance) const;
 
  private:
-  Eigen::VectorXd partial_, phi_;
-  std::vector<double> covariance_;
+  /// At lags 0 to `longest`.
+  std::vector<double> covariances(Eigen::Index longest) const;
+
+  Eigen::VectorXd partial_, phi_, covariance_;  ///< the last at lags 0 to the order
 };
 
 /// Walks the rows of a series: which rows before a row are there to predict it from.

@@ -38,13 +38,14 @@ Known arm_of(const Vehicle& vehicle) {
   return {sum / static_cast<double>(vehicle.rotors.size()), {}};
 }
 
-/// Angle at which the lateral rotors are mounted, and NaN where none is slanted.
+/// Angle at which the lateral rotors are mounted; NaN where the file states none (a layout without
+/// `slant_deg` asks for the angle, it is not one mounted at 0).
 double mounted_angle(const Vehicle& vehicle) {
   double sum = 0.0;
   int slanted = 0;
   for (const Rotor& rotor : vehicle.rotors) {
     const double level = rotor.a_B.head<2>().norm();
-    if (rotor.slant_B.isZero() && level < 1e-3) continue;
+    if (level < 1e-3 && (rotor.slant_B.isZero() || !vehicle.has("alpha"))) continue;
     sum += std::atan2(rotor.slant_B.isZero() ? level : rotor.slant_B.dot(rotor.a_B), -rotor.a_B.z());
     ++slanted;
   }

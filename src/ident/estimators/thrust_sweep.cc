@@ -147,7 +147,7 @@ Result estimate_thrust(const std::vector<NumberTable>& tables, const ThrustOptio
   add_law(result, files);
   auto list = Json::array();
   for (const SweepFile& file : files) list.push_back(file_json(file));
-  result.extra["files"] = list;
+  result.extra["sweeps"] = list;
   Section summary{.title = "Thrust sweeps",
                   .text = "thrust = tare + kT Omega^2, torque = tare + kQ Omega^2.",
                   .tables = {sweep_table(files), law_table(files)}};

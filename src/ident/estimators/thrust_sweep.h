@@ -21,7 +21,7 @@ struct ThrustOptions {
 ThrustOptions thrust_options(const Vehicle& vehicle);
 
 /// Parameters kT, kQ (over all files), CT, CQ, figure_of_merit, km, Omega_0, ki, kv, R, I0, as far as the
-/// files hold them; `quadratic_law`, `files` and `hover` in `extra`. A file that cannot be used is left out
+/// files hold them; `quadratic_law`, `sweeps` and `hover` in `extra`. A file that cannot be used is left out
 /// with a warning where there are others. Throws DataError when none can.
 Result estimate_thrust(const std::vector<NumberTable>& tables, const ThrustOptions& options = {});
 

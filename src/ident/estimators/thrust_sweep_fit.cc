@@ -3,12 +3,16 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "ident/estimators/statistics.h"
 #include "ident/estimators/thrust_sweep_model.h"
 
 namespace ident {
 namespace {
+
+constexpr std::size_t kFewestForRestNoise = 5;
+constexpr double kRestDiffers = 1e-3;  // probability below which the noise at rest counts as another one
 
 double square(double v) { return v * v; }
 
@@ -28,33 +32,54 @@ double set_point_rms(const SweepChannel& channel, const ChannelResiduals& residu
 }
 
 ChannelResiduals residuals_of(const SweepChannel& channel, const LeastSquaresFit& fit,
-                              ResidualSeries series) {
+                              const SweepModel& model, std::size_t number) {
   ChannelResiduals found;
-  for (Eigen::Index i = series.begin; i < series.end; ++i) {
-    const SweepPoint& point = channel.moving[static_cast<std::size_t>(i - series.begin)];
-    found.Omega.push_back(point.Omega);
+  const std::vector<Eigen::Index>& places = model.moving(number);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Eigen::Index i = places[k];
+    found.Omega.push_back(channel.moving[k].Omega);
     found.residual.push_back(-fit.residuals(i));
-    found.fitted.push_back(point.value + fit.residuals(i));
+    found.fitted.push_back(channel.moving[k].value + fit.residuals(i));
     found.standardized.push_back(fit.standardized(i));
     found.rejected.push_back(fit.rejected[static_cast<std::size_t>(i)]);
   }
-  const NoiseEstimate& noise = fit.noise[static_cast<std::size_t>(series.group)];
+  const NoiseEstimate& noise = fit.noise[model.group(number)];
   found.noise = noise.sigma;
   found.rho = noise.rho;
   found.rms = set_point_rms(channel, found);
   return found;
 }
 
+/// Do readings at rest scatter more or less than those in motion (F test on decorrelated residuals)?
+bool rest_differs(const LeastSquaresFit& fit, const SweepModel& model, std::size_t channel) {
+  const auto list = [&](const std::vector<Eigen::Index>& places) {
+    std::vector<double> kept;
+    for (const Eigen::Index i : places)
+      if (std::isfinite(fit.standardized(i))) kept.push_back(fit.standardized(i));
+    return kept;
+  };
+  const std::vector<double> rest = list(model.at_rest(channel)), moving = list(model.moving(channel));
+  if (rest.size() < kFewestForRestNoise || moving.size() < kFewestForRestNoise) return false;
+  const double p = f_cdf(square(root_mean_square(rest) / root_mean_square(moving)),
+                         static_cast<double>(rest.size()), static_cast<double>(moving.size()));
+  return std::fmin(p, 1.0 - p) < 0.5 * kRestDiffers;
+}
+
 }  // namespace
 
 SweepFit fit_sweep(const SweepPoints& points, ThrustLaw law) {
-  const SweepModel model(points, law);
-  SweepFit found{.fit = solve_least_squares(model.problem())};
-  found.thrust = residuals_of(points.thrust, found.fit, model.moving(0));
-  if (points.has_torque()) found.torque = residuals_of(points.torque, found.fit, model.moving(1));
-  found.speed_modelled = model.speed_modelled();
+  auto model = std::make_unique<SweepModel>(points, law, RestNoise::alike);
+  SweepFit found{.fit = solve_least_squares(model->problem())};
+  if (!points.averaged &&
+      (rest_differs(found.fit, *model, 0) || (points.has_torque() && rest_differs(found.fit, *model, 1)))) {
+    model = std::make_unique<SweepModel>(points, law, RestNoise::own);
+    found.fit = solve_least_squares(model->problem());
+  }
+  found.thrust = residuals_of(points.thrust, found.fit, *model, 0);
+  if (points.has_torque()) found.torque = residuals_of(points.torque, found.fit, *model, 1);
+  found.speed_modelled = model->speed_modelled();
   if (!found.speed_modelled) return found;
-  const ResidualSeries speeds = model.speeds();
+  const ResidualSeries speeds = model->speeds();
   found.speed_noise = found.fit.noise[static_cast<std::size_t>(speeds.group)].sigma;
   found.speed_share = found.fit.value("speed_share");
   for (Eigen::Index i = speeds.begin; i < speeds.end; ++i)

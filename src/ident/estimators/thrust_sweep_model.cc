@@ -63,11 +63,11 @@ bool speed_scatter_matters(const SweepPoints& points) {
   return matters(points.thrust) || matters(points.torque);
 }
 
-SweepModel::SweepModel(const SweepPoints& points, ThrustLaw law) {
+SweepModel::SweepModel(const SweepPoints& points, ThrustLaw law, RestNoise rest_noise) {
   if (speed_scatter_matters(points)) add_set_points(points);
   add_channel(points.thrust, "kT", law == ThrustLaw::with_linear_term);
   if (points.has_torque()) add_channel(points.torque, "kQ", law == ThrustLaw::with_linear_term);
-  add_groups(points);
+  add_groups(points, rest_noise);
   problem_.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     return evaluate(x, r, J);
   };
@@ -111,37 +111,57 @@ void SweepModel::add_channel(const SweepChannel& from, const char* constant, boo
     channel.rows.push_back(
         {p.Omega, p.value, at == set_points_.end() ? -1 : static_cast<int>(at - set_points_.begin())});
   }
-  channel.rest = std::isfinite(from.rest_std) ? std::vector<double>{mean(from.rest)} : from.rest;
+  channel.rest = std::isfinite(from.rest_std) ? std::vector<double>{from.rest_mean} : from.rest;
   channels_.push_back(std::move(channel));
 }
 
-void SweepModel::add_groups(const SweepPoints& points) {
-  const auto series = [&](std::size_t rows, int group) {
-    const Eigen::Index begin = problem_.residuals;
-    problem_.residuals += static_cast<Eigen::Index>(rows);
-    const ResidualSeries made{.begin = begin, .end = problem_.residuals, .group = group};
-    if (rows > 0) problem_.series.push_back(made);
-    return made;
-  };
-  const auto group = [&](NoiseGroup made) {
-    problem_.groups.push_back(std::move(made));
-    return static_cast<int>(problem_.groups.size()) - 1;
-  };
-  if (!readings_.empty()) speeds_ = series(readings_.size(), group({.name = "speed"}));
+int SweepModel::add_group(NoiseGroup group) {
+  problem_.groups.push_back(std::move(group));
+  return static_cast<int>(problem_.groups.size()) - 1;
+}
+
+ResidualSeries SweepModel::add_series(Eigen::Index rows, int group) {
+  const ResidualSeries made{.begin = problem_.residuals, .end = problem_.residuals + rows, .group = group};
+  problem_.residuals = made.end;
+  if (rows > 0) problem_.series.push_back(made);
+  return made;
+}
+
+/// Rows of one group are one series in the order of the file, so that noise that lasts from rest into motion
+/// is seen as one.
+void SweepModel::add_residuals(const SweepChannel& from, Channel& channel, int moving_group, int rest_group) {
+  const auto count = [](const auto& list) { return static_cast<Eigen::Index>(list.size()); };
+  channel.group = static_cast<std::size_t>(moving_group);
+  const bool together = moving_group == rest_group && channel.rest.size() == from.rest_place.size();
+  Eigen::Index at = problem_.residuals;
+  add_series(count(channel.rows) + (together ? count(channel.rest) : 0), moving_group);
+  std::size_t moving = 0, rest = 0;
+  while (moving < channel.rows.size() || (together && rest < channel.rest.size())) {
+    const bool is_rest = together && rest < channel.rest.size() &&
+                         (moving == channel.rows.size() || from.rest_place[rest] < from.moving[moving].place);
+    (is_rest ? channel.at_rest : channel.moving).push_back(at++);
+    ++(is_rest ? rest : moving);
+  }
+  if (together) return;
+  const ResidualSeries own = add_series(count(channel.rest), rest_group);
+  for (Eigen::Index i = own.begin; i < own.end; ++i) channel.at_rest.push_back(i);
+}
+
+void SweepModel::add_groups(const SweepPoints& points, RestNoise rest_noise) {
+  if (!readings_.empty())
+    speeds_ = add_series(static_cast<Eigen::Index>(readings_.size()), add_group({.name = "speed"}));
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     const SweepChannel& from = c == 0 ? points.thrust : points.torque;
-    Channel& channel = channels_[c];
-    const int moving = group({.name = from.name, .in_time_order = !points.averaged});
-    channel.moving = series(channel.rows.size(), moving);
-    int at_rest = moving;
+    const int moving = add_group({.name = from.name, .in_time_order = !points.averaged});
+    int rest = moving;
     if (std::isfinite(from.rest_std))
-      at_rest = group({.name = from.name + " at rest",
-                       .known_sigma = std::max(from.rest_std, 1e-6 * from.full_scale()),
-                       .in_time_order = false,
-                       .may_have_outliers = false});
-    else if (channel.rest.size() >= kFewestForNoise)
-      at_rest = group({.name = from.name + " at rest"});
-    channel.at_rest = series(channel.rest.size(), at_rest);
+      rest = add_group({.name = from.name + " at rest",
+                        .known_sigma = std::max(from.rest_std, 1e-6 * from.full_scale()),
+                        .in_time_order = false,
+                        .may_have_outliers = false});
+    else if (rest_noise == RestNoise::own && channels_[c].rest.size() >= kFewestForNoise)
+      rest = add_group({.name = from.name + " at rest"});
+    add_residuals(from, channels_[c], moving, rest);
   }
 }
 
@@ -175,9 +195,9 @@ bool SweepModel::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::M
   }
   for (const Channel& channel : channels_) {
     for (std::size_t i = 0; i < channel.rows.size(); ++i)
-      evaluate_row(channel, channel.rows[i], channel.moving.begin + static_cast<Eigen::Index>(i), x, r, J);
+      evaluate_row(channel, channel.rows[i], channel.moving[i], x, r, J);
     for (std::size_t i = 0; i < channel.rest.size(); ++i) {
-      const Eigen::Index at = channel.at_rest.begin + static_cast<Eigen::Index>(i);
+      const Eigen::Index at = channel.at_rest[i];
       r(at) = x(channel.tare) - channel.rest[i];
       if (J) (*J)(at, channel.tare) = 1.0;
     }

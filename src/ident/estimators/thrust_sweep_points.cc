@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/estimators/statistics.h"
 #include "ident/estimators/thrust_sweep_lag.h"
+#include "ident/estimators/thrust_sweep_tare.h"
 
 namespace ident {
 namespace {
@@ -32,7 +33,9 @@ void rough_line(SweepChannel& channel) {
   }
   channel.start_constant = slopes.empty() ? kNaN : median(slopes);
   for (const SweepPoint& p : sorted) left.push_back(p.value - channel.start_constant * square(p.Omega));
-  channel.start_tare = channel.rest.empty() ? median(left) : median(channel.rest);
+  channel.start_tare = std::isfinite(channel.rest_mean) ? channel.rest_mean
+                       : channel.rest.empty()           ? median(left)
+                                                        : median(channel.rest);
 }
 
 void turn_round(SweepChannel& channel) {
@@ -40,6 +43,7 @@ void turn_round(SweepChannel& channel) {
   channel.reversed = true;
   for (SweepPoint& p : channel.moving) p.value = -p.value;
   for (double& v : channel.rest) v = -v;
+  channel.rest_mean = -channel.rest_mean;
   channel.start_constant = -channel.start_constant;
   channel.start_tare = -channel.start_tare;
 }
@@ -58,18 +62,19 @@ void take_rows(const SweepRows& rows, const std::vector<double>& y, SweepChannel
   channel.used = channel.moving.size() + channel.rest.size();
 }
 
-/// Every set-point a point: robust mean of the force, speed over the same rows.
-void take_dwells(const SweepRows& rows, const std::vector<double>& y, SweepChannel& channel) {
+/// Every set-point a point: robust mean of the force, speed over the same rows. Returns the stays at rest.
+std::vector<RestStay> take_dwells(const SweepRows& rows, const std::vector<double>& y,
+                                  SweepChannel& channel) {
   std::vector<double> values, speeds, places;
-  std::vector<double> rest_variance;
+  std::vector<RestStay> stays;
   const auto close = [&](int set_point, bool at_rest) {
     if (values.size() >= kFewestInADwell) {
       const RobustMean found = robust_mean(values);
       channel.used += found.used;
       if (at_rest) {
+        stays.push_back(rest_stay(mean(places), values));
         channel.rest.push_back(found.value);
         channel.rest_place.push_back(mean(places));
-        rest_variance.push_back(square(found.scale) / static_cast<double>(found.used));
       } else {
         channel.moving.push_back({robust_mean(speeds).value, found.value, mean(places), set_point});
       }
@@ -88,12 +93,17 @@ void take_dwells(const SweepRows& rows, const std::vector<double>& y, SweepChann
     values.push_back(y[i]), speeds.push_back(rows.Omega[i]), places.push_back(rows.place[i]);
   }
   close(current, rest);
-  if (channel.rest.empty()) return;
-  // Stays at rest that differ by more than their noise differ by drift: their spread counts too.
-  const auto stays = static_cast<double>(channel.rest.size());
-  const double within = mean(rest_variance) / stays;
-  const double between = stays > 1.0 ? square(standard_deviation(channel.rest)) / stays : 0.0;
-  channel.rest_std = std::sqrt(std::max(within, between));
+  return stays;
+}
+
+/// The level of the tare from the stays at rest of a log; its drift is taken off the points.
+void take_tare(const std::vector<RestStay>& stays, SweepChannel& channel) {
+  if (stays.empty()) return;
+  const TareDrift tare(stays);
+  channel.rest_mean = tare.mean();
+  channel.rest_std = tare.std();
+  channel.drifts = tare.drifts();
+  for (SweepPoint& p : channel.moving) p.value -= tare.deviation(p.place);
 }
 
 SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std::string name,
@@ -102,8 +112,9 @@ SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std
   if (y.empty()) return channel;
   for (std::size_t i = 0; i < y.size(); ++i)
     channel.rows += std::isfinite(y[i]) && std::isfinite(rows.Omega[i]);
+  std::vector<RestStay> stays;
   if (points.averaged)
-    take_dwells(rows, y, channel);
+    stays = take_dwells(rows, y, channel);
   else
     take_rows(rows, y, channel);
   if (rows.is_log && channel.moving.size() < kFewestDwells) {
@@ -117,6 +128,7 @@ SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std
     channel.moving.clear();
     return channel;
   }
+  take_tare(stays, channel);
   rough_line(channel);
   turn_round(channel);
   return channel;

@@ -22,8 +22,10 @@ struct SweepChannel {
   std::vector<SweepPoint> moving;
   std::vector<double> rest;        ///< readings at rest; of a log one mean for each stay
   std::vector<double> rest_place;  ///< s or row of each
-  double rest_std = kNaN;  ///< of the mean of `rest`, known from a log's rows; NaN: the fit finds it out
-  bool reversed = false;   ///< the file shows it negative; turned round here
+  /// Tare of a log and how well it is known, from its rows at rest; NaN: the fit finds it out.
+  double rest_mean = kNaN, rest_std = kNaN;
+  bool drifts = false;    ///< the tare of a log changes from stay to stay; its drift is taken off the points
+  bool reversed = false;  ///< the file shows it negative; turned round here
   double start_constant = 0.0, start_tare = 0.0;  ///< rough: median slope over Omega^2
   std::size_t rows = 0;                           ///< that have a value and a speed
   std::size_t used = 0;                           ///< that went into the points

@@ -75,8 +75,11 @@ void about_channel(const SweepFile& file, const SweepChannel& channel, const Cha
         format_with_uncertainty(tare.value, tare.std), channel.unit, share);
   if (channel.rest.size() >= 2 && std::isfinite(channel.rest_std)) {
     const auto [low, high] = std::ranges::minmax(channel.rest);
-    if (high - low > 0.005 * channel.full_scale())
-      say("tare_drift", "{} at rest changes from {} to {} {} over the file: its tare is uncertain by that",
+    if (channel.drifts && high - low > 0.005 * channel.full_scale())
+      say("tare_drift",
+          "{} at rest changes from {} to {} {} over the file: its drift is taken off as linear from one stay "
+          "at "
+          "rest to the next",
           channel.name, format_number(channel.rest.front(), 3), format_number(channel.rest.back(), 3),
           channel.unit);
   }
