@@ -27,6 +27,9 @@ void add_report(Outputs& outputs, const std::vector<ReportFile>& files);
 /// Adds to a result what a stranger needs to repeat it: the command line, the hashes of all files read.
 void add_provenance(Result& result, const Context& context);
 
+/// What to run next, as a command line; empty where nothing suggests itself.
+std::string next_command(const Result& result, const Context& context);
+
 /// Completes the result, writes all outputs, prints. Returns the exit status.
 ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options);
 

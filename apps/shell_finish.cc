@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 bool colour_wanted() {
   const char* no_colour = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  if (terminal != nullptr && std::string_view(terminal) == "dumb") return false;
   return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
 }
 
@@ -41,6 +43,28 @@ void keep_in_campaign(const Result& result, Context& context) {
 void print(const std::string& text) {
   const bool complete = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!complete || std::fflush(stdout) != 0) throw OutputError("standard output cannot be written");
+}
+
+std::string terminal_text(const Result& result, const Context& context) {
+  std::string text = render_text(result, {.colour = colour_wanted()});
+  if (const std::string next = next_command(result, context); !next.empty()) text += "Next: " + next + "\n";
+  return text;
+}
+
+/// One line for what was decided about each file, in the order of the files.
+std::string notes(const std::vector<std::string>& notices) {
+  std::vector<std::pair<std::string, std::string>> by_file;
+  for (const std::string& notice : notices) {
+    const std::size_t end = notice.find(": ");
+    const bool named = end != std::string::npos && notice.find(' ') > end;
+    const std::string file = named ? notice.substr(0, end + 2) : "";
+    auto at = std::ranges::find(by_file, file, &std::pair<std::string, std::string>::first);
+    if (file.empty() || at == by_file.end()) at = by_file.insert(by_file.end(), {file, ""});
+    at->second += (at->second.empty() ? "" : "; ") + notice.substr(file.size());
+  }
+  std::string text;
+  for (const auto& [file, decisions] : by_file) text += "note: " + file + decisions + "\n";
+  return text;
 }
 
 }  // namespace
@@ -69,13 +93,11 @@ ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& option
   add_provenance(result, context);
   if (!options.report.empty()) add_report(context.outputs, report_files(options.report, result));
   keep_in_campaign(result, context);
-  const std::string text =
-      options.json ? json_text(result) : render_text(result, {.colour = colour_wanted()});
+  const std::string text = options.json ? json_text(result) : terminal_text(result, context);
   context.outputs.prepare();
   print(text);
   context.outputs.commit();
-  if (!options.json)
-    for (const std::string& notice : context.notices) fmt::print(stderr, "note: {}\n", notice);
+  if (!options.json) fmt::print(stderr, "{}", notes(context.notices));
   return outcome.status;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "ident/core/nearest_word.h"
 #include "shell.h"
@@ -9,12 +10,41 @@
 namespace ident::app {
 namespace {
 
+constexpr std::size_t kWidth = 80;   // columns of a terminal
+constexpr std::size_t kColumn = 26;  // where the meaning of an option begins
+
+/// Where the lines that continue a line begin: under the second column if it has one, else a little further
+/// in.
+std::size_t indent_of(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(' '), gap = line.find("  ", first);
+  if (gap != std::string::npos && gap < kColumn) return line.find_first_not_of(' ', gap);
+  const bool option = first == 2 && line.size() > kColumn && line[kColumn - 1] == ' ' && line[first] == '-';
+  return option ? kColumn : first == 0 ? 0 : std::min(first + 4, kColumn);
+}
+
+/// Breaks lines that are too long at blanks.
+std::string within(std::size_t width, const std::string& text) {
+  std::istringstream lines(text);
+  std::string out;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = indent_of(line);
+    while (line.size() > width) {
+      const std::size_t at = line.rfind(' ', width);
+      if (at == std::string::npos || at <= indent) break;
+      out += line.substr(0, at) + "\n";
+      line = std::string(indent, ' ') + line.substr(at + 1);
+    }
+    out += line + "\n";
+  }
+  return out;
+}
+
 class HelpLayout : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* cli, std::string name, CLI::AppFormatMode mode) const override {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(cli);
-    return make_description(cli) + make_footer(cli) + "\n" + make_usage(cli, name) + make_positionals(cli) +
-           make_groups(cli, mode) + make_subcommands(cli, mode);
+    return within(kWidth, make_description(cli) + make_footer(cli) + "\n" + make_usage(cli, name) +
+                              make_positionals(cli) + make_groups(cli, mode) + make_subcommands(cli, mode));
   }
 };
 
@@ -59,7 +89,7 @@ std::shared_ptr<CLI::FormatterBase> help_layout() {
   layout->label("Positionals", "Arguments");
   layout->label("SUBCOMMAND", "COMMAND");
   layout->label("Subcommands", "Commands");
-  layout->column_width(26);
+  layout->column_width(kColumn);
   return layout;
 }
 

@@ -110,7 +110,12 @@ void add_simulate_flight(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   step->capture_default_str();
   sub->add_flag("--log-step", o->log_step, "one step from row to row, as an estimator makes it")
       ->excludes(step);
-  sub->footer("\n" + scenario_list());
+  examples(*sub,
+           {{"ident simulate flight --vehicle v.yaml --output flight.csv", "a minute of all manoeuvres"},
+            {"ident simulate flight --vehicle v.yaml --output eight.csv --scenario eight --seed 7 "
+             "--turbulence 0.3",
+             "figure eights in gusts"}});
+  sub->footer(sub->get_footer() + "\n\n" + scenario_list());
   sub->callback([o, chosen] { *chosen = [o](Context& context) { return run(*o, context); }; });
 }
 

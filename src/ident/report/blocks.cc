@@ -138,8 +138,10 @@ std::vector<std::string> not_identifiable(const Result& result) {
   return lines;
 }
 
+bool is_data_health(const Section& section) { return section.title == kHealth; }
+
 std::string verdict_of(const Result& result) {
-  std::string text = result.verdict.empty() ? identified(result) : result.verdict;
+  const std::string text = result.verdict.empty() ? identified(result) : result.verdict;
   const std::vector<Findings> findings = findings_by_kind(result);
   if (findings.empty() || text.empty()) return text;
   std::vector<std::string> kinds;
@@ -159,8 +161,7 @@ std::vector<Findings> findings_by_kind(const Result& result) {
 
 std::vector<Section> sections_in_order(const Result& result) {
   std::vector<Section> health, rest;
-  for (const Section& section : result.sections)
-    (section.title == kHealth ? health : rest).push_back(section);
+  for (const Section& section : result.sections) (is_data_health(section) ? health : rest).push_back(section);
   if (health.empty() && result.extra.contains("notices"))
     health.push_back(files_as_read(result.extra.at("notices")));
   if (const Table fit = fit_table(result); !fit.rows.empty())

@@ -8,8 +8,7 @@
 
 namespace ident {
 
-/// The verdict in plain words: the command's own, else what was identified; then what is not identifiable and
-/// which findings to look at.
+/// The verdict in plain words: the command's own, else what was identified; then which findings to look at.
 std::string verdict_of(const Result& result);
 
 /// Name, value, unit, interval, deviation (the naive one beside it); prior, pull and the share of the data
@@ -45,6 +44,9 @@ std::vector<std::string> lines_of(const std::string& paragraph);
 
 /// A diagnosis is about causes: its parameters and the health of its data come after its pictures.
 bool is_diagnosis(const Result& result);
+
+/// Rates, gaps, units: a part that a report has, and a terminal leaves out.
+bool is_data_health(const Section& section);
 
 /// "ident flightlog --refine" from the command, as the title of a page or a chapter.
 std::string title_of(const Result& result);

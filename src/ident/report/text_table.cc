@@ -2,16 +2,24 @@
 #include "ident/report/text_table.h"
 
 #include <algorithm>
+#include <numeric>
+#include <sstream>
 
 namespace ident {
 namespace {
 
-constexpr int kGap = 2;  // blanks between columns
+constexpr int kGap = 2;                     // blanks between columns
+constexpr std::size_t kLongestNumber = 32;  // bytes; what is longer and starts with a digit is a sentence
 
 /// Where the decimal point stands, or where it would.
 std::size_t point_of(std::string_view cell) {
   const auto end = cell.find_first_not_of("+-(0123456789");
   return end == std::string_view::npos ? cell.size() : end;
+}
+
+/// A text whose first line has `indent` columns before it already.
+std::string wrap_after(const std::string& text, int width, int indent) {
+  return wrap(text, width, indent).substr(static_cast<std::size_t>(indent));
 }
 
 std::string padded(const std::string& cell, int width) {
@@ -21,6 +29,89 @@ std::string padded(const std::string& cell, int width) {
 std::string without_trailing_blanks(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
   return line;
+}
+
+std::string_view without_leading_blanks(std::string_view cell) {
+  return cell.substr(std::min(cell.size(), cell.find_first_not_of(' ')));
+}
+
+int widest(const std::vector<std::string>& cells) {
+  int width = 0;
+  for (const std::string& cell : cells) width = std::max(width, display_width(cell));
+  return width;
+}
+
+/// The width below which a column cannot be broken: that of its longest word, and of a number as a whole.
+int least_width(const std::vector<std::string>& cells) {
+  int width = 0;
+  for (std::size_t r = 0; r < cells.size(); ++r) {
+    const bool whole =
+        r > 0 && is_number(without_leading_blanks(cells[r])) && cells[r].size() <= kLongestNumber;
+    for (std::size_t at = 0; at < cells[r].size();) {
+      const std::size_t end = whole ? cells[r].size() : std::min(cells[r].find(' ', at), cells[r].size());
+      width = std::max(width, display_width(std::string_view(cells[r]).substr(at, end - at)));
+      at = end + 1;
+    }
+  }
+  return width;
+}
+
+/// Narrows the widest columns whose cells can be broken until all stand beside each other; false if they
+/// cannot.
+bool fit(const std::vector<std::vector<std::string>>& columns, std::vector<int>& widths, int width) {
+  std::vector<int> least;
+  for (const auto& column : columns) least.push_back(std::min(widest(column), least_width(column)));
+  const int gaps = kGap * (static_cast<int>(widths.size()) - 1);
+  for (;;) {
+    if (std::accumulate(widths.begin(), widths.end(), 0) + gaps <= width) return true;
+    int next = -1;
+    for (int c = 0; c < std::ssize(widths); ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      if (widths[at] > least[at] && (next < 0 || widths[at] > widths[static_cast<std::size_t>(next)]))
+        next = c;
+    }
+    if (next < 0) return false;
+    --widths[static_cast<std::size_t>(next)];
+  }
+}
+
+std::vector<std::string> lines_of_cell(const std::string& cell, int width) {
+  if (display_width(cell) <= width) return {cell};
+  std::vector<std::string> lines;
+  std::istringstream wrapped(wrap(cell, width));
+  for (std::string line; std::getline(wrapped, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string table_row(const std::vector<std::vector<std::string>>& columns, const std::vector<int>& widths,
+                      std::size_t row) {
+  std::vector<std::vector<std::string>> cells;
+  std::size_t height = 1;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    cells.push_back(lines_of_cell(columns[c][row], widths[c]));
+    height = std::max(height, cells.back().size());
+  }
+  std::string out;
+  for (std::size_t i = 0; i < height; ++i) {
+    std::string line;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      line += padded(i < cells[c].size() ? cells[c][i] : "", widths[c] + kGap);
+    out += without_trailing_blanks(line) + "\n";
+  }
+  return out;
+}
+
+/// For what is too wide to stand side by side: each row as a list.
+std::string records(const Table& table, int width) {
+  const int room = widest(table.columns);
+  std::string out;
+  for (const auto& row : table.rows) {
+    if (!out.empty()) out += "\n";
+    for (std::size_t c = 0; c < std::min(row.size(), table.columns.size()); ++c)
+      if (!row[c].empty())
+        out += padded(table.columns[c], room + kGap) + wrap_after(row[c], width, room + kGap);
+  }
+  return out;
 }
 
 }  // namespace
@@ -61,31 +152,17 @@ std::string wrap(std::string_view text, int width, int indent) {
 }
 
 std::string text_table(const Table& table, int width) {
-  const std::size_t columns = table.columns.size();
-  std::vector<std::vector<std::string>> cells(columns);
-  std::vector<int> widths(columns, 0);
-  for (std::size_t c = 0; c < columns; ++c) {
-    for (const auto& row : table.rows) cells[c].push_back(c < row.size() ? row[c] : "");
-    align_points(cells[c]);
-    widths[c] = display_width(table.columns[c]);
-    for (const std::string& cell : cells[c]) widths[c] = std::max(widths[c], display_width(cell));
+  std::vector<std::vector<std::string>> columns(table.columns.size());
+  std::vector<int> widths;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (const auto& row : table.rows) columns[c].push_back(c < row.size() ? row[c] : "");
+    align_points(columns[c]);
+    columns[c].insert(columns[c].begin(), table.columns[c]);
+    widths.push_back(widest(columns[c]));
   }
-  int before_last = 0;
-  for (std::size_t c = 0; c + 1 < columns; ++c) before_last += widths[c] + kGap;
-
-  const auto line_of = [&](auto cell_at) {
-    std::string line;
-    for (std::size_t c = 0; c + 1 < columns; ++c) line += padded(cell_at(c), widths[c] + kGap);
-    if (columns == 0) return line + "\n";
-    const std::string last = cell_at(columns - 1);
-    if (before_last + display_width(last) <= width || before_last + 20 > width)
-      return without_trailing_blanks(line + last) + "\n";
-    const std::string wrapped = wrap(last, width, before_last);
-    return line + wrapped.substr(static_cast<std::size_t>(before_last));
-  };
-  std::string out = line_of([&](std::size_t c) { return table.columns[c]; });
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    out += line_of([&](std::size_t c) { return cells[c][r]; });
+  if (!fit(columns, widths, width)) return records(table, width);
+  std::string out;
+  for (std::size_t r = 0; r <= table.rows.size(); ++r) out += table_row(columns, widths, r);
   return out;
 }
 

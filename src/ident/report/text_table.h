@@ -21,8 +21,8 @@ bool is_number(std::string_view cell);
 /// Pads the numbers among the cells of a column on the left, so that their points stand under each other.
 void align_points(std::vector<std::string>& cells);
 
-/// Numbers in a column are aligned on the decimal point. Cells of the last column are wrapped where the table
-/// would exceed `width`.
+/// Numbers in a column are aligned on the decimal point. Where the table would exceed `width`, heads and
+/// texts are wrapped; what is too wide even then is written as a list for each row.
 std::string text_table(const Table& table, int width);
 
 }  // namespace ident

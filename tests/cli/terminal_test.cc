@@ -1,0 +1,90 @@
+// What the program shows on a terminal: help within 80 columns that leads with examples, one note a file, and
+// the next command.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "support/run_program.h"
+
+namespace ident {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSample = fs::path(IDENT_SOURCE_DIR) / "data/sample";
+
+std::string sample_campaign() {
+  const fs::path folder = fs::path(test_folder()) / "campaign";
+  fs::remove_all(folder);
+  fs::copy(kSample, folder, fs::copy_options::recursive);
+  return folder.string();
+}
+
+std::size_t widest_line(const std::string& text) {
+  std::size_t width = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) width = std::max(width, line.size());
+  return width;
+}
+
+TEST(Terminal, HelpLeadsWithExamplesAndKeepsToEightyColumns) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{},
+                                                  {"thrust"},
+                                                  {"motor"},
+                                                  {"inertia"},
+                                                  {"flightlog"},
+                                                  {"gap"},
+                                                  {"slant"},
+                                                  {"check"},
+                                                  {"report"},
+                                                  {"simulate", "flight"},
+                                                  {"simulate", "thrust"},
+                                                  {"simulate", "motor"},
+                                                  {"simulate", "inertia"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.emplace_back("--help");
+    const std::string help = run_ident(arguments).out;
+    const std::string name = command.empty() ? "ident" : command.back();
+    EXPECT_LE(widest_line(help), 80U) << name << "\n" << help;
+    EXPECT_LT(help.find("Examples:"), help.find("Usage:")) << name;
+  }
+}
+
+TEST(Terminal, SuggestsTheNextCommandOfTheCampaign) {
+  const std::string folder = sample_campaign();
+  EXPECT_NE(run_ident({"thrust"}, folder).out.find("Next: ident motor\n"), std::string::npos);
+  EXPECT_NE(run_ident({"motor"}, folder).out.find("Next: ident inertia\n"), std::string::npos);
+  EXPECT_NE(run_ident({"inertia"}, folder).out.find("Next: ident gap\n"), std::string::npos);
+  EXPECT_EQ(run_ident({"motor", "--json"}, folder).out.find("Next"), std::string::npos);
+}
+
+TEST(Terminal, SuggestsWhatToDoWithTheFileJustMade) {
+  const std::string folder = sample_campaign();
+  const ProgramRun made = run_ident(
+      {"simulate", "thrust", "--vehicle",
+       (fs::path(IDENT_SOURCE_DIR) / "data/sample_truth/falcon_truth.yaml").string(), "--output", "mine.csv"},
+      folder);
+  EXPECT_NE(made.out.find("Next: ident thrust mine.csv\n"), std::string::npos) << made.out << made.err;
+}
+
+TEST(Terminal, NotesOneLineForEachLogAndPaintsNothingOffATerminal) {
+  const ProgramRun run = run_ident({"flightlog"}, sample_campaign());
+  EXPECT_EQ(run.status, 0);
+  std::istringstream lines(run.err);
+  int notes = 0;
+  for (std::string line; std::getline(lines, line); ++notes)
+    EXPECT_TRUE(line.starts_with("note: flight_")) << line;
+  EXPECT_EQ(notes, 2);
+  EXPECT_EQ(run.out.find('\033'), std::string::npos);
+  EXPECT_LE(widest_line(run.out), 80U);
+}
+
+TEST(Terminal, NamesTheNearestWordOfAMistypedCommandOrOption) {
+  EXPECT_NE(run_ident({"thrst"}).err.find("did you mean 'thrust'?"), std::string::npos);
+  EXPECT_NE(run_ident({"gap", "--exlude", "x"}).err.find("did you mean '--exclude'?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ident
