@@ -4,7 +4,7 @@
 
 build_packages=(build-essential cmake ninja-build libeigen3-dev libceres-dev libfmt-dev nlohmann-json3-dev
                 libyaml-cpp-dev libcli11-dev libfccp-dev)
-test_packages=(libgtest-dev chromium poppler-utils)
+test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib)
 
 setup_packages() {
   local package missing=() as_root=()
