@@ -1,15 +1,15 @@
 // Forces, moments and accelerations of a multirotor at a state, for any number of rotors: the equation that
 // serves every airframe.
 //
-//   F = sum_n T_n a_n,   T_n = kT Omega_n^2,  Q_n = kQ Omega_n^2 (3) M = sum_n (r_n x T_n a_n - s_n Q_n a_n)
-//   - sigma sum_n s_n Jp (Omega_n' a_n + Omega_n w x a_n)            (4) J w' = M - c x F - w x J w about the
-//   centre of gravity c           (5) f = F/m - w' x c - w x (w x c),   v' = R f + g specific force and
-//   motion of the origin (6) q' = q * (0, w)/2,   x' = v (7)
+//   F = sum_n T_n a_n ,   T_n = kT Omega_n^2 ,   Q_n = kQ Omega_n^2                                   (3)
+//   M = sum_n (r_n x T_n a_n - s_n Q_n a_n) - sigma sum_n s_n Jp (Omega_n' a_n + Omega_n w x a_n)     (4)
+//   J w' = M - c x F - w x J w                        about the centre of gravity c                   (5)
+//   f = F/m - w' x c - w x (w x c) ,   v' = R f + g   specific force and motion of the origin         (6)
+//   q' = q * (0, w)/2 ,   x' = v                                                                      (7)
 //
-// sigma = +1 from first principles: the rotor's momentum is +s Jp Omega a, its rate of change acts on the
-// body with a minus. sigma = -1 reproduces the signs printed in [Phang 16, 18, 19] (erratum 1). Linear drag
-// of [Selby]: -diag(Kd) v_W, in the world frame. `c` is zero unless an effect moves the centre of gravity off
-// the origin.
+// sigma = +1: the rotor's momentum is +s Jp Omega a, its rate of change acts on the body with a minus; -1 is
+// printed in [Phang 16, 18, 19] (erratum 1). Drag of [Selby]: -diag(Kdx, Kdy, Kdz) v_W, along the world axes.
+// `c` is zero unless an effect moves the centre of gravity off the origin.
 #pragma once
 
 #include <span>
