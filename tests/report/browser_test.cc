@@ -1,78 +1,17 @@
 // Reports in a real browser: no errors, plots drawn, zoom, dark mode, phone, paper.
-#include "support/browser.h"
-
-#include <gtest/gtest.h>
-
 #include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <memory>
 
 #include "ident/report/report.h"
+#include "support/report_in_browser.h"
 #include "support/sample_results.h"
 
 namespace ident::testing {
 namespace {
 
-namespace fs = std::filesystem;
-
-class ReportInBrowser : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!Browser::available()) GTEST_SKIP() << "chromium is not installed (tests/run.sh installs it)";
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("ident-report-") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    browser_ = std::make_unique<Browser>();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void open(const std::string& html) {
-    const fs::path page = folder_ / "page.html";
-    std::ofstream(page, std::ios::binary) << html;
-    browser_->open(page);
-  }
-
-  nlohmann::json value(const std::string& expression) { return browser_->evaluate(expression); }
-
-  /// Scrolls through the page, so that every plot comes into view, then back to the top.
-  void see_everything() {
-    value(R"((async () => {
-      const pause = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 40)));
-      for (let y = 0; y <= document.body.scrollHeight; y += 400) {
-        scrollTo({ top: y, behavior: "instant" });
-        await pause();
-      }
-      scrollTo({ top: 0, behavior: "instant" });
-      await pause();
-    })())");
-  }
-
-  static std::string script(const std::string& name) {
-    std::ifstream file(fs::path(IDENT_SOURCE_DIR) / "tests/report" / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  void wait_a_moment() { value("new Promise((done) => setTimeout(done, 150))"); }
-
-  fs::path folder_;
-  std::unique_ptr<Browser> browser_;
-};
-
 std::string campaign_page() {
   const std::array results{sample_parameter_result(), sample_gap_result()};
   return render_html("falcon", results);
 }
-
-/// JavaScript: how many colours a canvas shows, 1 when it is empty.
-constexpr const char* kColours = R"((() => [...document.querySelectorAll("canvas")].map((canvas) => {
-  const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-  const seen = new Set();
-  for (let i = 0; i < pixels.length; i += 4) seen.add(pixels.slice(i, i + 4).join());
-  return seen.size;
-}))())";
 
 TEST_F(ReportInBrowser, OpensWithoutErrorsAndDrawsEveryTimeSeries) {
   open(campaign_page());
@@ -164,25 +103,12 @@ TEST_F(ReportInBrowser, RunsNoScriptThatComesFromAName) {
   EXPECT_TRUE(browser_->errors().empty()) << browser_->errors().front();
 }
 
-std::string text_of_pdf(const fs::path& pdf) {
-  const std::string command = "pdftotext -layout '" + pdf.string() + "' -";
-  std::string text;
-  std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
-  std::array<char, 4096> chunk{};
-  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe.get())) > 0;)
-    text.append(chunk.data(), n);
-  return text;
-}
-
 TEST_F(ReportInBrowser, PrintsEverySectionOnA4) {
-  if (!fs::exists("/usr/bin/pdftotext"))
-    GTEST_SKIP() << "poppler-utils is not installed (tests/run.sh installs it)";
+  if (!can_read_pdf()) GTEST_SKIP() << "poppler-utils is not installed (tests/run.sh installs it)";
   browser_->set_window(1300, 900, true);
   open(campaign_page());
   see_everything();
-  const fs::path pdf = folder_ / "page.pdf";
-  std::ofstream(pdf, std::ios::binary) << browser_->print();
-  const std::string text = text_of_pdf(pdf);
+  const std::string text = printed_text();
   for (const char* part :
        {"falcon", "ident flightlog", "Parameters", "Identifiable", "Checks and warnings", "Data health",
         "Prediction", "Roll rate, second flight", "rate [rad/s]", "Spectrum of the residual",
