@@ -16,16 +16,13 @@ namespace {
 constexpr double kSeaLevelDensity = 1.225;  // kg/m^3, where the file states none
 constexpr double kSoundSpeed = 340.0;       // m/s
 constexpr double kTipMach = 0.9;            // above it a static test shows drag divergence
-// kQ/kT over the radius: 0.09 to 0.24 on the propellers of the UIUC data base, 0.26 on a 23 mm one.
-constexpr double kLowestRatio = 0.03, kHighestRatio = 0.6;
-// Without a radius: from 15 mm to 1 m propellers.
-constexpr double kShortestLever = 5e-4, kLongestLever = 0.5;
 
 void check_lever(const Vehicle& vehicle, double lever, Consistency& found) {
   const std::string what = "torque against thrust";
   const bool sized = vehicle.propeller_radius.has_value();
-  const double ratio = sized ? lever / *vehicle.propeller_radius : lever;
-  const double low = sized ? kLowestRatio : kShortestLever, high = sized ? kHighestRatio : kLongestLever;
+  const double unit = sized ? *vehicle.propeller_radius : 1.0, ratio = lever / unit;
+  const LeverRange range = plausible_lever(vehicle.propeller_radius);
+  const double low = range.low / unit, high = range.high / unit;
   const std::string text =
       sized ? fmt::format("kQ/kT = {} m is {} propeller radii", format_number(lever), format_number(ratio, 3))
             : fmt::format("kQ/kT = {} m", format_number(lever));

@@ -1,5 +1,6 @@
 // The only place that talks to Ceres: dense QR, tolerances at rounding level, several initial trust regions.
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <cmath>
 #include <limits>
@@ -109,10 +110,14 @@ ceres::Solver::Options solver_options(Effort effort, double radius) {
   return options;
 }
 
+/// Ceres says on the standard error stream what the summary says too.
+void silence_log() { FLAGS_minloglevel = google::GLOG_FATAL; }
+
 }  // namespace
 
 Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
                  const RowTransform& transform, Effort effort) {
+  silence_log();
   DenseCost cost(problem, transform);
   Minimum best{start, std::numeric_limits<double>::infinity()};
   for (const double radius : {1e4, 10.0, 1e-3}) {
@@ -132,6 +137,7 @@ Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& star
 }
 
 SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start) {
+  silence_log();
   SteppedMinimum best{start};
   SteppedCost cost(problem, start.size());
   ceres::Problem::Options ownership;

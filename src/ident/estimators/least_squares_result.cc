@@ -38,7 +38,7 @@ double half_width_95(const std::vector<Normal>& parts) {
 double dof_with_t95(double quantile) {
   double low = 0.0, high = std::log(1e6);
   if (quantile <= t95(std::exp(high))) return std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 16; ++i) {
     const double middle = 0.5 * (low + high);
     (t95(std::exp(middle)) > quantile ? low : high) = middle;
   }

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kDraws = 150, kFewDraws = 40;
 constexpr double kManyRows = 20000;  // from there on the constants are known so well that few draws do
-constexpr double kTailDof = 6.0;     // draws come from a t distribution: tails heavier than the likelihood's
+// Draws spread wider than the curvature of the likelihood says: its tails are long.
+constexpr double kWider = 1.3;
 
 /// Level and colour of all groups around a solution, moved along one list of constants: for every group with
 /// a free level its log variance, then atanh of its partial autocorrelations.
@@ -118,18 +119,19 @@ double radical_inverse(int i, int base) {
   return value;
 }
 
-/// Point number i of a t distribution in n dimensions (Halton's sequence), the log of its density with it.
+/// Point number i of a normal distribution in n dimensions (Halton's sequence), the log of its density with
+/// it.
 struct Point {
   Eigen::VectorXd u;
   double log_density;
 };
 Point point(int i, Eigen::Index n) {
   constexpr std::array primes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71};
-  Point p{.u = Eigen::VectorXd::Zero(n), .log_density = 0.0};
-  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(n, primes.size()); ++k) {
-    p.u(k) = t_quantile(radical_inverse(i + 20, primes[static_cast<std::size_t>(k)]), kTailDof);
-    p.log_density -= 0.5 * (kTailDof + 1.0) * std::log1p(p.u(k) * p.u(k) / kTailDof);
-  }
+  Point p{.u = Eigen::VectorXd::Zero(n)};
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(n, primes.size()); ++k)
+    p.u(k) = normal_quantile(radical_inverse(i + 20, primes[static_cast<std::size_t>(k)]));
+  p.log_density = -0.5 * p.u.squaredNorm();
+  p.u *= kWider;
   return p;
 }
 

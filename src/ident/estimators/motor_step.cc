@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/error.h"
 #include "ident/estimators/motor_step_findings.h"
 #include "ident/estimators/motor_step_report.h"
 #include "ident/estimators/statistics.h"
@@ -14,6 +15,10 @@ namespace ident {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double kLeastExplained = 0.5;  // r2
+constexpr double kLongestDeadTime = 0.5,
+                 kFastestMotor = 500.0;  // s, rad/s: beyond it the time's unit is wrong
 
 std::vector<StepRecord> all_records(const std::vector<NumberTable>& tables, const MotorOptions& options,
                                     Result& result) {
@@ -66,6 +71,18 @@ void add_fit(Result& result, const std::vector<StepRecord>& records, const Motor
   result.fit["static_curve"] = names[static_cast<std::size_t>(motor.curve)];
 }
 
+/// A model that explains little of the speed says nothing of the motor.
+void expect_answer(const Result& result, const std::vector<StepRecord>& records) {
+  const double r2 = result.fit["r2"].get<double>();
+  if (r2 > kLeastExplained && result.find("km")->value > 0.0) return;
+  throw DataError(fmt::format(
+      "{}: the speed does not follow the command: the motor model explains {:.0f} % of its changes{}; are "
+      "command "
+      "and speed of one recording, in the right columns, and does the speed rise with the command?",
+      records.front().file, 100.0 * std::max(r2, 0.0),
+      result.find("km")->value > 0.0 ? "" : " with a gain below zero"));
+}
+
 Json as_json(const Parameter& p) {
   return {{"value", p.value}, {"std", p.std}, {"ci95", {p.ci95[0], p.ci95[1]}}, {"unit", p.unit}};
 }
@@ -104,6 +121,7 @@ Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions
   result.parameters.push_back(fitted_parameter(motor.fit, "zeta_m", "-", "motor"));
   result.parameters.push_back(fitted_parameter(motor.fit, "dead_time", "s", "motor"));
   add_fit(result, records, motor);
+  expect_answer(result, records);
   add_response(result, response);
   add_correlation(result, motor);
   judge_separability(result, response);
@@ -114,6 +132,17 @@ Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions
     result.warn("negative_dead_time",
                 "the speed answers before the command changes: the two columns are not of the "
                 "same time; add a constant to the time of one of them");
+  if (dead_time.ci95[0] > kLongestDeadTime)
+    result.warn(
+        "implausible_dead_time",
+        fmt::format("a dead time of {:.2g} s is that of no motor: is the time in seconds, and are command "
+                    "and speed of the same time?",
+                    dead_time.value));
+  if (const Parameter& omega_m = *result.find("omega_m");
+      omega_m.identifiable && omega_m.value > kFastestMotor)
+    result.warn("implausible_motor",
+                fmt::format("omega_m = {:.0f} rad/s is faster than motors are: is the time in seconds?",
+                            omega_m.value));
   result.sections = motor_sections(records, motor, response, line);
   return result;
 }

@@ -12,6 +12,7 @@ namespace ident {
 namespace {
 
 constexpr double kUsualOmega = 30.0, kOmegaSpread = 3.0;  // weak prior: log(omega_m) = log(30) +- 3
+constexpr double kEvident = 6.0;  // less of BIC that a richer static curve has to earn: "strong" evidence
 constexpr std::size_t kMostPlateaus = 80, kFewestRowsOfAPlateau = 10;
 
 std::size_t count_levels(const std::vector<StepRecord>& records) {
@@ -187,7 +188,7 @@ std::vector<MotorShape> promising_shapes(const std::vector<StepRecord>& records)
   const MotorProblem line(records, count_levels(records) > 1 ? StaticCurve::line : StaticCurve::proportional,
                           SpinDirections::alike);
   std::vector<std::pair<double, MotorShape>> tried;
-  for (const double omega_m : {6.0, 15.0, 35.0, 90.0})
+  for (const double omega_m : {6.0, 15.0, 35.0, 90.0, 300.0, 1200.0})
     for (const double zeta_m : {0.5, 1.0, 1.8})
       for (const double dead_time : {0.0, 0.015, 0.04}) {
         const MotorShape shape{omega_m, zeta_m, dead_time};
@@ -222,7 +223,7 @@ MotorFit fit_motor(const std::vector<StepRecord>& records) {
   for (const StaticCurve curve : others) {
     shapes = {best.shape};
     const MotorFit other = fitted(curve);
-    if (other.fit.bic < best.fit.bic) best = other;
+    if (other.fit.bic < best.fit.bic - kEvident) best = other;
   }
   return best;
 }

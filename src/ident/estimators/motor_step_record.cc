@@ -14,8 +14,24 @@ namespace {
 
 constexpr double kPauseIntervals = 50.0;  // a pause is as long as so many usual intervals, and over a second
 constexpr double kShortestPause = 1.0;    // s
+constexpr double kLongestInterval = 1.0;  // s between rows in which an answer can be seen
 constexpr std::size_t kFewestRows = 12;
 constexpr std::size_t kSmoothingRows = 100;  // to either side
+
+/// Refuses what no motor's answer can be seen in.
+void expect_motion(const NumberTable& table, const std::vector<double>& speed, const std::vector<double>& t) {
+  double low = kNaN, high = kNaN;
+  for (const double v : speed) low = std::fmin(low, v), high = std::fmax(high, v);
+  if (!(high > low)) throw DataError(table.file + ": the speed is the same in every row");
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (t[i] > t[i - 1]) intervals.push_back(t[i] - t[i - 1]);
+  if (const double usual = median(intervals); usual > kLongestInterval)
+    throw DataError(
+        fmt::format("{}: t: rows are {:.3g} s apart, and a motor answers within a second: name the unit of "
+                    "the time in the header (as in 't [ms]'), or sample at 50 Hz or more",
+                    table.file, usual));
+}
 
 bool turns(const std::vector<double>& speed) {
   return std::ranges::any_of(speed, [](double v) { return std::isfinite(v) && v != 0.0; });
@@ -84,6 +100,7 @@ std::vector<StepRecord> step_records(const NumberTable& table, const std::option
   const std::vector<double>* time = table.find("t");
   if (!time) throw DataError(table.file + ": there is no time");
   const std::vector<double>& speed = speed_of(table, warnings);
+  expect_motion(table, speed, *time);
   const std::vector<double> command = command_of(table, range, warnings);
   const double pause = std::max(kShortestPause, kPauseIntervals * usual_interval(*time));
 

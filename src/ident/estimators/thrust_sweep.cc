@@ -11,6 +11,7 @@
 #include "ident/estimators/statistics.h"
 #include "ident/estimators/thrust_sweep_hover.h"
 #include "ident/estimators/thrust_sweep_parameters.h"
+#include "ident/estimators/thrust_sweep_plausible.h"
 #include "ident/estimators/thrust_sweep_sections.h"
 
 namespace ident {
@@ -143,6 +144,7 @@ Result estimate_thrust(const std::vector<NumberTable>& tables, const ThrustOptio
   Result result{.command = "thrust"};
   const Files files = analyse(tables, options, result);
   add_sweep_parameters(result, files, options);
+  warn_of_implausible(result, options);
   add_fit(result, files);
   add_law(result, files);
   auto list = Json::array();

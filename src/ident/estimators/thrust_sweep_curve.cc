@@ -67,6 +67,15 @@ double misfit(const LeastSquaresFit& fit, double full_scale) {
   return 100.0 * root_mean_square(kept) / full_scale;
 }
 
+/// Speed at the higher half of the commands against that at the lower half.
+bool falls(const Pairs& pairs) {
+  const double middle = median(pairs.delta);
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < pairs.delta.size(); ++i)
+    if (pairs.delta[i] != middle) (pairs.delta[i] < middle ? low : high).push_back(pairs.Omega[i]);
+  return median(high) < median(low);
+}
+
 }  // namespace
 
 std::optional<CommandCurve> command_curve(const SweepRows& rows) {
@@ -75,6 +84,7 @@ std::optional<CommandCurve> command_curve(const SweepRows& rows) {
   const Pairs pairs = averaged ? set_point_pairs(rows) : row_pairs(rows);
   const std::set<double> commands(pairs.delta.begin(), pairs.delta.end());
   if (commands.size() < 3 || pairs.delta.size() < 4) return std::nullopt;
+  if (falls(pairs)) return CommandCurve{.delta = pairs.delta, .Omega = pairs.Omega, .falls = true};
   CommandCurve curve{.fit = polynomial(pairs, false, !averaged), .delta = pairs.delta, .Omega = pairs.Omega};
   const double top = std::ranges::max(pairs.Omega);
   curve.misfit_percent_fs = misfit(curve.fit, top);

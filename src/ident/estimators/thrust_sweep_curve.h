@@ -17,6 +17,7 @@ struct CommandCurve {
   std::vector<double> delta, Omega;  ///< what was fitted
   double misfit_percent_fs = kNaN;   ///< of (1)
   double with_square_percent_fs = kNaN;
+  bool falls = false;    ///< the speed falls with the command: nothing was fitted
   bool is_bent = false;  ///< a term in delta^2 is significant and matters
 };
 

@@ -59,6 +59,8 @@ SweepFile analyse_sweep(const NumberTable& table, const ThrustOptions& options,
   if (file.has_torque())
     file.torque_law = judge_law(file.points.torque, file.fit.torque, file.linear.torque, file.linear.fit);
   file.curve = command_curve(file.rows);
+  file.command_falls = file.curve && file.curve->falls;
+  if (file.command_falls) file.curve.reset();
   file.motor = motor_constants(motor_rows(file));
   return file;
 }

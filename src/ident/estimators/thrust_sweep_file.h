@@ -17,6 +17,7 @@ struct SweepFile {
   LawJudgement thrust_law;
   std::optional<LawJudgement> torque_law;
   std::optional<CommandCurve> curve;
+  bool command_falls = false;  ///< with rising speed: no curve
   std::optional<MotorConstants> motor;
   bool has_torque() const { return points.has_torque(); }
 };

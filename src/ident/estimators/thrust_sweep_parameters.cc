@@ -82,12 +82,6 @@ void add_rotor(Result& result, const ThrustOptions& options, double rho_kTkQ) {
   const Parameter kQ = *result.find("kQ");
   result.parameters.push_back(scaled(kQ, "CQ", torque_coefficient(1.0, R, rho), "-"));
   result.parameters.push_back(merit_parameter(kT, kQ, rho_kTkQ, R, rho));
-  if (result.parameters.back().value >= 1.0)
-    result.warn(
-        "figure_of_merit",
-        fmt::format("figure of merit {}: more thrust than momentum theory allows; check the radius, the pole "
-                    "count and the units",
-                    format_number(result.parameters.back().value, 3)));
 }
 
 void add_curve(Result& result, const Files& files) {

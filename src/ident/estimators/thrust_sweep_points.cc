@@ -134,6 +134,36 @@ SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std
   return channel;
 }
 
+/// Is there more than one reading, to a millionth?
+bool changes(const SweepChannel& channel) {
+  double low = channel.moving[0].value, high = low;
+  for (const SweepPoint& p : channel.moving) low = std::min(low, p.value), high = std::max(high, p.value);
+  for (const double v : channel.rest) low = std::min(low, v), high = std::max(high, v);
+  return high - low > 1e-6 * std::max(std::fabs(low), std::fabs(high));
+}
+
+/// Squared speeds that differ by 5 % at least, rest included.
+bool has_range(const SweepChannel& channel) {
+  const auto [low, high] = std::ranges::minmax(channel.moving, {}, &SweepPoint::Omega);
+  return !channel.rest.empty() || square(low.Omega) < 0.95 * square(high.Omega);
+}
+
+void expect_thrust(const SweepChannel& thrust, const std::string& file) {
+  if (thrust.moving.size() < kFewestPoints)
+    throw DataError(
+        fmt::format("{}: only {} steady points with thrust and rotor speed: kT needs at least {} at "
+                    "different speeds",
+                    file, thrust.moving.size(), kFewestPoints));
+  if (!has_range(thrust))
+    throw DataError(file +
+                    ": all rows were taken at one rotor speed and none at rest: kT needs thrust at "
+                    "different speeds");
+  if (!changes(thrust) || !std::isfinite(thrust.start_constant))
+    throw DataError(file +
+                    ": thrust is the same in every row: the column is not that of a force that was "
+                    "measured");
+}
+
 }  // namespace
 
 double SweepChannel::full_scale() const {
@@ -148,12 +178,9 @@ SweepPoints sweep_points(const SweepRows& rows) {
   points.averaged = rows.is_log || (rows.size() > kMostRows && repeated);
   points.thrust = channel_of(rows, rows.thrust, "thrust", "N", points);
   points.torque = channel_of(rows, rows.torque, "torque", "N m", points);
-  if (points.thrust.moving.size() < kFewestPoints || !std::isfinite(points.thrust.start_constant))
-    throw DataError(
-        fmt::format("{}: only {} steady points with thrust and rotor speed: kT needs at least {} at "
-                    "different speeds",
-                    rows.file, points.thrust.moving.size(), kFewestPoints));
-  if (points.torque.moving.size() < kFewestPoints || !std::isfinite(points.torque.start_constant))
+  expect_thrust(points.thrust, rows.file);
+  if (points.torque.moving.size() < kFewestPoints || !std::isfinite(points.torque.start_constant) ||
+      !changes(points.torque) || !has_range(points.torque))
     points.torque.moving.clear();
   return points;
 }

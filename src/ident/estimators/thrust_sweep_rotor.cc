@@ -24,4 +24,9 @@ double figure_of_merit(double kT, double kQ, double radius, double rho) {
   return kT * std::sqrt(kT) / (kQ * std::sqrt(2.0 * rho * disc_area(radius)));  // (3)
 }
 
+LeverRange plausible_lever(const std::optional<double>& radius) {
+  if (!radius) return {5e-4, 0.5};
+  return {0.03 * *radius, 0.6 * *radius};
+}
+
 }  // namespace ident

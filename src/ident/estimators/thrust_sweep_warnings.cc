@@ -71,8 +71,9 @@ void about_channel(const SweepFile& file, const SweepChannel& channel, const Cha
   const Parameter tare = fitted_parameter(file.fit.fit, channel.name + "_tare", channel.unit, "thrust");
   const double share = 100.0 * std::fabs(tare.value) / channel.full_scale();
   if ((tare.ci95[0] > 0.0 || tare.ci95[1] < 0.0) && share > 0.1)
-    say("tare_offset", "{} reads {} {} at rest ({:.1f} % of full scale); taken off", channel.name,
-        format_with_uncertainty(tare.value, tare.std), channel.unit, share);
+    say("tare_offset", "{} reads {} {} at rest{} ({:.1f} % of full scale); taken off", channel.name,
+        format_with_uncertainty(tare.value, tare.std), channel.unit,
+        channel.rest.empty() ? ", extrapolated from the rows in motion" : "", share);
   if (channel.rest.size() >= 2 && std::isfinite(channel.rest_std)) {
     const auto [low, high] = std::ranges::minmax(channel.rest);
     if (channel.drifts && high - low > 0.005 * channel.full_scale())
@@ -86,6 +87,21 @@ void about_channel(const SweepFile& file, const SweepChannel& channel, const Cha
   if (const auto n = std::ranges::count(residuals.rejected, true); n > 0)
     say("outliers", "{} of {} {} points are left out as outliers", n, residuals.rejected.size(),
         channel.name);
+}
+
+/// Two speeds, or one and rest: any law with two constants fits.
+void about_speeds(const SweepFile& file, Sayer& say) {
+  std::vector<double> speeds;
+  for (const SweepPoint& p : file.points.thrust.moving) speeds.push_back(p.Omega);
+  if (!file.points.thrust.rest.empty()) speeds.push_back(0.0);
+  std::ranges::sort(speeds);
+  int different = 1;
+  for (std::size_t i = 1; i < speeds.size(); ++i)
+    different += speeds[i] - speeds[i - 1] > 0.02 * speeds.back();
+  if (different < 3)
+    say("few_speeds",
+        "only {} different speeds: tare and k Omega^2 fit such data whatever the law is. Take five or more",
+        different);
 }
 
 void about_law(const LawJudgement& law, const std::string& what, Sayer& say) {
@@ -123,6 +139,8 @@ void about_command(const SweepFile& file, Sayer& say) {
   if (file.rows.pulse_without_range)
     say("command_range_unknown",
         "pulse widths without `command: {{min, max}}` of a vehicle file give no command curve (--vehicle)");
+  if (file.command_falls)
+    say("command_reversed", "the speed falls with rising command: no command curve; check that column");
   if (file.curve && file.curve->is_bent)
     say("command_curve_bent",
         "speed over command is no straight line: it misses {:.1f} % of full speed, with a square {:.1f} %",
@@ -144,6 +162,7 @@ void add_sweep_warnings(const SweepFile& file, std::vector<Warning>& warnings) {
   about_rows(file, say);
   about_channel(file, file.points.thrust, file.fit.thrust, say);
   about_channel(file, file.points.torque, file.fit.torque, say);
+  about_speeds(file, say);
   about_law(file.thrust_law, "thrust", say);
   if (file.torque_law) about_law(*file.torque_law, "torque", say);
   about_speed(file, say);

@@ -16,6 +16,7 @@
 namespace ident {
 namespace {
 
+constexpr double kLargestPlatform = 1.6, kLargestVehicle = 3.0;  // radius of gyration over that of the wires
 constexpr std::array kVehicleAxes = {PendulumAxis::x, PendulumAxis::y, PendulumAxis::z};
 
 /// Each moment is at most the sum of the two others: J_a + J_b - J_c = 2 integral(c^2 dm) >= 0.
@@ -83,6 +84,33 @@ void add_warnings(Result& result, const PendulumModel& model, const LeastSquares
                   fmt::format("{} = {} kg m^2: the platform's period or mass does not fit to "
                               "that of the loaded pendulum",
                               p.name, format_with_uncertainty(p.value, p.std)));
+}
+
+/// Radii of gyration over the wires' radius: bodies that hang on the wires are about as large as their
+/// circle.
+void check_size(Result& result, const PendulumModel& model, const LeastSquaresFit& fit) {
+  double radius = 0.0, length = 0.0;
+  for (const PendulumRow& row : model.rows())
+    radius = std::max(radius, row.radius), length = std::max(length, row.length);
+  const auto too_large = [&](const std::string& name, double mass, double most) {
+    const double ratio = std::sqrt(std::max(fit.value(name), 0.0) / mass) / radius;
+    if (ratio < most) return;
+    result.warn(
+        "implausible_inertia",
+        fmt::format(
+            "{} = {} kg m^2 is that of {:.2g} kg at {:.2g} times the radius of the wires: is `period` that "
+            "of one oscillation, in seconds, and are radius ({} m) and length ({} m) in their columns?",
+            name, format_number(fit.value(name), 3), mass, ratio, format_number(radius, 3),
+            format_number(length, 3)));
+  };
+  if (model.has_axis(PendulumAxis::platform))
+    too_large("J_platform", model.platform_mass(), kLargestPlatform);
+  for (const PendulumAxis axis : kVehicleAxes)
+    for (const PendulumRow& row : model.rows())
+      if (row.axis == axis) {
+        too_large(PendulumModel::name(axis), row.mass - model.platform_mass(), kLargestVehicle);
+        break;
+      }
 }
 
 /// Residuals of the periods in seconds, whatever they were weighted with.
@@ -167,6 +195,7 @@ Result estimate_inertia(const std::vector<NumberTable>& tables, const InertiaOpt
       result.parameters.push_back(fitted_parameter(fit, PendulumModel::name(axis), "kg m^2", "inertia"));
   check_triangle(result, fit);
   add_warnings(result, model, fit);
+  check_size(result, model, fit);
   const bool noise_known =
       fit.degrees_of_freedom > 0.0 ||
       std::ranges::all_of(model.rows(), [](const PendulumRow& r) { return r.std > 0.0; });

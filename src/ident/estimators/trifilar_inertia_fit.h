@@ -5,8 +5,8 @@
 
 #include "ident/core/result.h"
 #include "ident/estimators/least_squares.h"
-#include "ident/model/trifilar_period.h"
 #include "ident/estimators/trifilar_inertia_rows.h"
+#include "ident/model/trifilar_period.h"
 
 namespace ident {
 
