@@ -1,10 +1,47 @@
 // Reads the logs and the vehicle of a flight command.
 #include "flight_input.h"
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
 #include "ident/io/read_flight_log.h"
 #include "ident/io/vehicle_file.h"
+#include "ident/report/campaign_report.h"
 
 namespace ident::app {
+namespace {
+
+constexpr std::array<std::string_view, 3> kBench{"thrust", "motor", "inertia"};
+
+bool used_any(const Result& result, const std::vector<CampaignLog>& logs) {
+  return std::ranges::any_of(logs, [&](const CampaignLog& log) {
+    return std::ranges::find(result.inputs, log.file) != result.inputs.end();
+  });
+}
+
+/// The campaign's vehicle. Estimates that a refinement of one of these logs stored give way to those of the
+/// bench.
+Vehicle known_vehicle(const Campaign& campaign, const std::vector<CampaignLog>& logs, Model model,
+                      Context& context) {
+  const std::vector<Result> results = model == Model::as_stored ? std::vector<Result>() : stored_results(".");
+  const auto refined = std::ranges::find_if(results, [&](const Result& r) {
+    return r.command == "flightlog" && !r.parameters.empty() && used_any(r, logs);
+  });
+  if (refined == results.end() || !std::filesystem::exists(campaign.parameters))
+    return campaign_vehicle(campaign);
+  Vehicle found = read_vehicle(campaign.parameters), vehicle = read_vehicle(campaign.vehicle);
+  std::erase_if(found.parameters, [&](const auto& entry) {
+    const Parameter* p = refined->find(entry.first);
+    return p && p->value == entry.second.value;
+  });
+  for (const Result& result : results)
+    if (std::ranges::find(kBench, result.command) != kBench.end()) vehicle = with_result(vehicle, result);
+  context.notices.push_back("priors: vehicle file and bench; the stored refinement used these logs already");
+  return with_parameters(vehicle, found);
+}
+
+}  // namespace
 
 void add_flight_options(CLI::App& cli, FlightOptions& options) {
   cli.add_option("LOG", options.files, "flight logs (CSV); none: those of ident.yaml")->type_name("LOG");
@@ -14,14 +51,20 @@ void add_flight_options(CLI::App& cli, FlightOptions& options) {
       ->type_name("FILE");
 }
 
-FlightInput flight_input(const FlightOptions& options, Context& context) {
+FlightInput flight_input(const FlightOptions& options, Model model, Context& context) {
   FlightInput input;
   const std::optional<Campaign> campaign = find_campaign();
+  std::vector<CampaignLog> logs;
+  for (const std::string& file : options.files) logs.push_back({file, options.map});
+  if (logs.empty() && campaign) {
+    logs = campaign->logs;
+    input.campaign = campaign;
+  }
   if (!options.vehicle.empty()) {
     input.vehicle = read_vehicle(options.vehicle);
     context.used.push_back(options.vehicle);
   } else if (campaign) {
-    input.vehicle = campaign_vehicle(*campaign);
+    input.vehicle = known_vehicle(*campaign, logs, model, context);
     context.used.push_back(campaign->file);
   } else {
     throw UsageError("no vehicle: name one with --vehicle FILE, or run where there is an ident.yaml");
@@ -29,12 +72,6 @@ FlightInput flight_input(const FlightOptions& options, Context& context) {
   if (!options.params.empty()) {
     input.vehicle = with_parameters(input.vehicle, read_vehicle(options.params));
     context.used.push_back(options.params);
-  }
-  std::vector<CampaignLog> logs;
-  for (const std::string& file : options.files) logs.push_back({file, options.map});
-  if (logs.empty() && campaign) {
-    logs = campaign->logs;
-    input.campaign = campaign;
   }
   if (logs.empty()) throw UsageError("no flight log: name one, or list `logs` in ident.yaml");
   for (const CampaignLog& log : logs) {
@@ -44,8 +81,7 @@ FlightInput flight_input(const FlightOptions& options, Context& context) {
       context.used.push_back(log.map);
     }
     input.logs.push_back(read_flight_log(log.file, input.vehicle, map));
-    for (const std::string& notice : input.logs.back().notices)
-      context.notices.push_back(notice);
+    for (const std::string& notice : input.logs.back().notices) context.notices.push_back(notice);
   }
   return input;
 }

@@ -18,6 +18,10 @@ struct FlightOptions {
 
 void add_flight_options(CLI::App& cli, FlightOptions& options);
 
+/// Which model a command starts from: the campaign's as it is stored, or what was known before these logs,
+/// where the logs are to be evidence. An estimate that came from a log must not be a prior for the same log.
+enum class Model { as_stored, before_these_logs };
+
 struct FlightInput {
   Vehicle vehicle;
   std::vector<FlightLog> logs;
@@ -26,6 +30,6 @@ struct FlightInput {
 
 /// Reads them; without a file the campaign's logs, without --vehicle its vehicle. Throws UsageError when
 /// there is none.
-FlightInput flight_input(const FlightOptions& options, Context& context);
+FlightInput flight_input(const FlightOptions& options, Model model, Context& context);
 
 }  // namespace ident::app

@@ -21,7 +21,8 @@ Section verification(Vehicle vehicle, const Result& refined, const FlightInput& 
 }
 
 Outcome run(const Options& options, Context& context) {
-  FlightInput input = flight_input(options.flight, context);
+  const Model model = options.refine ? Model::before_these_logs : Model::as_stored;
+  FlightInput input = flight_input(options.flight, model, context);
   if (!options.refine) return verify_flight(input.vehicle, input.logs, options.horizon);
   Progress progress("refining");
   RefineOptions refine;

@@ -14,7 +14,7 @@ struct Options {
 };
 
 Outcome run(const Options& options, Context& context) {
-  const FlightInput input = flight_input(options.flight, context);
+  const FlightInput input = flight_input(options.flight, Model::before_these_logs, context);
   Progress progress("diagnosing");
   GapOptions gap;
   gap.exclude = options.exclude;

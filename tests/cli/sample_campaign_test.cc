@@ -73,6 +73,21 @@ TEST(SampleCampaign, RefinementKeepsTheTruthWithinThreeStandardDeviations) {
   EXPECT_GE(compare(found, truth), 11);  // those of the bench, Jp and alpha
 }
 
+TEST(SampleCampaign, ALogThatWasRefinedFromIsNoPriorForItself) {
+  const fs::path folder = fresh_campaign();
+  write_text(folder.string(), "ident.yaml",
+             "vehicle: falcon.yaml\nthrust: thrust_sweep.csv\ninertia: pendulum.csv\nlogs: short.csv\n");
+  run(folder, {"simulate", "flight", "--vehicle", (kData / "sample_truth/falcon_truth.yaml").string(),
+               "--output", "short.csv", "--duration", "8", "--rate", "100"});
+  for (const char* command : {"thrust", "inertia"}) run(folder, {command});
+  const std::string bench = content(folder / "parameters.yaml");
+  run(folder, {"flightlog", "--refine"});
+  const std::string once = content(folder / "parameters.yaml");
+  run(folder, {"flightlog", "--refine"});
+  EXPECT_NE(once, bench);
+  EXPECT_EQ(content(folder / "parameters.yaml"), once);
+}
+
 TEST(SampleCampaign, TheScriptMakesTheSameFilesAgain) {
   const fs::path folder = fs::path(test_folder()) / "made";
   fs::create_directories(folder);
