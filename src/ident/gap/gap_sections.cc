@@ -41,14 +41,12 @@ std::vector<std::string> causes_of(const Json& found) {
 }
 
 std::string how_far(const Json& gap, const std::string& causes) {
-  std::string text = fmt::format("Half a second ahead the model as given misses by {} times the sensor noise",
-                                 number_text(gap["before"]));
-  if (!causes.empty()) text += fmt::format("; with {} in it, by {} times", causes, number_text(gap["after"]));
-  text += fmt::format(
-      ". A perfect model would miss by {}, because sensors are noisy and nobody knows exactly how a window "
+  const std::string with = causes.empty() ? "its constants refitted" : causes + " in it";
+  std::string text = fmt::format(
+      "Half a second ahead the model as given misses by {} times the sensor noise; with {}, by {} times. A "
+      "perfect model would miss by {}, because sensors are noisy and nobody knows exactly how a window "
       "begins.",
-      number_text(gap["noise_floor"]));
-  if (causes.empty()) return text;
+      number_text(gap["before"]), with, number_text(gap["after"]), number_text(gap["noise_floor"]));
   if (!std::isfinite(number(gap["closed"]))) return text + " At this horizon there was no gap to close.";
   return text + fmt::format(" That closes {} % of the gap (95 %: {} to {} %).", percent(gap["closed"]),
                             percent(gap["closed_ci95"][0]), percent(gap["closed_ci95"][1]));
