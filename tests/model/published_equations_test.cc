@@ -157,6 +157,14 @@ TEST(Published, Erratum4PowerIsConservedWithAGearOnlyIfTheBackEmfTurnsWithTheMot
   }
 }
 
+TEST(Published, Erratum4PulsesFitIntoAServoFrameOfTwentyMillisecondsAsMicrosecondsOnly) {
+  const CommandRange range;  // [Phang 23]: delta = (u - 1100)/840
+  EXPECT_EQ(range.min_us, 1100.0);
+  EXPECT_EQ(range.max_us - range.min_us, 840.0);
+  EXPECT_LT(1e-6 * range.max_us, 0.020);
+  EXPECT_GT(1e-3 * range.min_us, 0.020);  // as printed: more than a second
+}
+
 TEST(Published, Erratum5SelbysRollPitchAndGyroscopicTermsAgreeHisYawTermDoesNot) {
   Random random(5);
   const Vehicle vehicle = selby_quad();
