@@ -1,6 +1,7 @@
 // `ident flightlog`: a model against flight logs, verified as it is or refined.
 #include "flight_input.h"
 #include "ident/estimators/flight_refine.h"
+#include "ident/estimators/simulation_residuals.h"
 
 namespace ident::app {
 namespace {
@@ -12,24 +13,31 @@ struct Options {
   double horizon = 1.0;
 };
 
-/// The refined model simulated against the logs, as a part of the report.
-Section verification(Vehicle vehicle, const Result& refined, const FlightInput& input, double horizon) {
+/// A model simulated against the logs, with what is left over.
+Result verified(const Vehicle& vehicle, const FlightInput& input, double horizon) {
+  Result result = verify_flight(vehicle, input.logs, horizon);
+  result.sections.push_back(simulation_residuals(result.sections.back()));
+  return result;
+}
+
+/// Adds to a refinement how the refined model simulates the logs.
+void verify_too(Result& refined, const FlightInput& input, double horizon) {
+  Vehicle vehicle = input.vehicle;
   for (const Parameter& p : refined.parameters) vehicle.parameters[p.name] = {.value = p.value, .std = p.std};
-  Section shown = verify_flight(vehicle, input.logs, horizon).sections.back();
-  shown.title = "The refined model, simulated against measured";
-  return shown;
+  std::vector<Section> shown = verified(vehicle, input, horizon).sections;
+  std::move(shown.end() - 2, shown.end(), std::back_inserter(refined.sections));
 }
 
 Outcome run(const Options& options, Context& context) {
   const Model model = options.refine ? Model::before_these_logs : Model::as_stored;
   FlightInput input = flight_input(options.flight, model, context);
-  if (!options.refine) return verify_flight(input.vehicle, input.logs, options.horizon);
+  if (!options.refine) return verified(input.vehicle, input, options.horizon);
   Progress progress("refining");
   RefineOptions refine;
   refine.free = options.free;
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
-  result.sections.push_back(verification(input.vehicle, result, input, options.horizon));
+  verify_too(result, input, options.horizon);
   if (input.campaign)
     context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
   return result;

@@ -94,21 +94,23 @@ Plot autocorrelation_plot(const ResidualNames& names, std::span<const double> re
   };
   const double edge = 1.96 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, residual.size())));
   const std::vector<double> raw = after_first(autocorrelation(residual, lags));
-  const std::vector<double> white = after_first(autocorrelation(standardized, lags));
   Series band{.name = "white noise, 95 %",
               .x = one_to(raw.size()),
               .y = std::vector<double>(raw.size(), -edge),
               .y2 = std::vector<double>(raw.size(), edge),
               .style = Style::band};
-  return {
-      .id = names.id + "-autocorrelation",
-      .title = "Autocorrelation of the residuals of " + names.channel,
-      .caption = "Decorrelated residuals leave the band where the model of the noise is wrong.",
-      .x_label = "lag [samples]",
-      .y_label = "autocorrelation [-]",
-      .series = {std::move(band),
-                 {.name = "as they are", .x = one_to(raw.size()), .y = raw, .style = Style::bars},
-                 {.name = "decorrelated", .x = one_to(white.size()), .y = white, .style = Style::points}}};
+  Plot plot{.id = names.id + "-autocorrelation",
+            .title = "Autocorrelation of the residuals of " + names.channel,
+            .x_label = "lag [samples]",
+            .y_label = "autocorrelation [-]",
+            .series = {std::move(band),
+                       {.name = "as they are", .x = one_to(raw.size()), .y = raw, .style = Style::bars}}};
+  if (standardized.empty()) return plot;
+  const std::vector<double> white = after_first(autocorrelation(standardized, lags));
+  plot.caption = "Decorrelated residuals leave the band where the model of the noise is wrong.";
+  plot.series.push_back(
+      {.name = "decorrelated", .x = one_to(white.size()), .y = white, .style = Style::points});
+  return plot;
 }
 
 }  // namespace ident

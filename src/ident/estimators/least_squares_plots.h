@@ -25,8 +25,9 @@ Plot normal_quantile_plot(const ResidualNames& names, std::span<const double> st
 /// Histogram of standardised residuals with the normal density.
 Plot histogram_plot(const ResidualNames& names, std::span<const double> standardized);
 
-/// Autocorrelation of the raw residuals and of the decorrelated ones, with the 95 % band of white noise.
+/// Autocorrelation of the raw residuals and, where there are any, of the decorrelated ones, with the 95 %
+/// band of white noise.
 Plot autocorrelation_plot(const ResidualNames& names, std::span<const double> residual,
-                          std::span<const double> standardized);
+                          std::span<const double> standardized = {});
 
 }  // namespace ident
