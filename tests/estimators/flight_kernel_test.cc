@@ -131,7 +131,7 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   options.estimate_noise = false;
   options.robust = false;
   NoiseModel noise = initial_noise(record);
-  noise.q_w = noise.q_v = noise.q_motor = 0;
+  noise.w_dot.sigma = noise.v_dot.sigma = noise.q_motor = 0;
   options.noise = noise;
   options.chunk_seconds = 0.4;
   options.tolerance = 1e-14;

@@ -15,13 +15,11 @@ using Pack8 = double __attribute__((vector_size(64)));
 template <int K, class Isa>
 struct Dual {
   static constexpr int width = 8 * K;
-  double v = 0.0;
+  double v;
   Pack8 d[K];
 
-  Dual() { zero(); }
-  Dual(double value) : v(value) { zero(); }  // NOLINT: a constant is a dual number without derivatives
-
-  void zero() {
+  Dual() = default;                // not initialised, like a double: temporaries are many
+  Dual(double value) : v(value) {  // NOLINT: a constant is a dual number without derivatives
     for (int k = 0; k < K; ++k) d[k] = Pack8{};
   }
   void seed(int i, double derivative = 1.0) { d[i / 8][i % 8] = derivative; }
@@ -48,32 +46,32 @@ struct Dual {
 
   /// f(a) with derivative `slope`.
   [[gnu::always_inline]] static Dual chain(double f, double slope, const Dual& a) {
-    Dual r{Uninitialised{}};
+    Dual r;
     r.v = f;
     for (int k = 0; k < K; ++k) r.d[k] = slope * a.d[k];
     return r;
   }
 
   [[gnu::always_inline]] friend Dual operator+(const Dual& a, const Dual& b) {
-    Dual r{Uninitialised{}};
+    Dual r;
     r.v = a.v + b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + b.d[k];
     return r;
   }
   [[gnu::always_inline]] friend Dual operator-(const Dual& a, const Dual& b) {
-    Dual r{Uninitialised{}};
+    Dual r;
     r.v = a.v - b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.d[k] - b.d[k];
     return r;
   }
   [[gnu::always_inline]] friend Dual operator*(const Dual& a, const Dual& b) {
-    Dual r{Uninitialised{}};
+    Dual r;
     r.v = a.v * b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.v * b.d[k] + b.v * a.d[k];
     return r;
   }
   [[gnu::always_inline]] friend Dual operator/(const Dual& a, const Dual& b) {
-    Dual r{Uninitialised{}};
+    Dual r;
     const double inverse = 1.0 / b.v;
     r.v = a.v * inverse;
     for (int k = 0; k < K; ++k) r.d[k] = (a.d[k] - r.v * b.d[k]) * inverse;
@@ -96,7 +94,7 @@ struct Dual {
 
   /// a + h b for a constant h: one pass over the derivatives.
   [[gnu::always_inline]] friend Dual sum(const Dual& a, double h, const Dual& b) {
-    Dual r{Uninitialised{}};
+    Dual r;
     r.v = a.v + h * b.v;
     for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + h * b.d[k];
     return r;
@@ -115,8 +113,6 @@ struct Dual {
   friend Dual cos(const Dual& a) { return chain(std::cos(a.v), -std::sin(a.v), a); }
 
  private:
-  struct Uninitialised {};
-  explicit Dual(Uninitialised) {}
   [[gnu::always_inline]] static Dual shifted(const Dual& a, double b) {
     Dual r = a;
     r.v += b;
@@ -136,7 +132,7 @@ struct NumTraits<ident::Dual<K, Isa>> : GenericNumTraits<ident::Dual<K, Isa>> {
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
-    RequireInitialization = 1,
+    RequireInitialization = 0,
     ReadCost = 1,
     AddCost = 4,
     MulCost = 8

@@ -12,6 +12,8 @@
 namespace ident {
 namespace {
 
+constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -53,6 +55,22 @@ MatrixXd inverse_of(const MatrixXd& M) {
   return s.asDiagonal() * inverse * s.asDiagonal();
 }
 
+// Sandwich over blocks of time, never below the naive covariance in any unknown.
+MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
+  const double n = static_cast<double>(fit.blocks.size());
+  if (n < 8) return fit.naive_covariance;
+  VectorXd mean = VectorXd::Zero(prior.rows());
+  for (const ScoreBlock& block : fit.blocks) mean += block.score / n;
+  MatrixXd meat = MatrixXd::Zero(prior.rows(), prior.rows());
+  for (const ScoreBlock& block : fit.blocks)
+    meat.noalias() += (block.score - mean) * (block.score - mean).transpose();
+  meat = meat * (n / (n - 1)) + prior;
+  const MatrixXd sandwich = fit.naive_covariance * meat * fit.naive_covariance;
+  const VectorXd stretch =
+      sandwich.diagonal().cwiseQuotient(fit.naive_covariance.diagonal()).cwiseMax(1.0).cwiseSqrt();
+  return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
+}
+
 double rms_rate_of(const FlightRecord& record, int channel) {
   double sum = 0, n = 0;
   for (const FlightArc& arc : record.arcs) {
@@ -81,55 +99,46 @@ NoiseModel initial_noise(const FlightRecord& record) {
   }
   if (v == 0) v = 2.0;
   if (w == 0) w = 5.0;
-  noise.q_w = std::pow(0.2 * w, 2) * 0.02;
-  noise.q_v = std::pow(0.1 * v, 2) * 0.1;
+  noise.w_dot = {0.2 * w, 0.1};
+  noise.v_dot = {0.1 * v, 0.5};
   noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
   return noise;
 }
 
-double update_noise(FlightSmoother& smoother) {
+double update_noise(FlightSmoother& smoother, int rounds) {
+  const double change = smoother.retune(rounds);
   const Moments m = smoother.moments();
   NoiseModel noise = smoother.noise();
-  double change = 0;
+  double white = 0;
   for (std::size_t c = 0; c < kChannels; ++c) {
     const double free = m.count[c] - m.leverage[c];
     if (m.count[c] < 8 || free < 0.02 * m.count[c]) continue;
     const double factor = std::clamp(m.square[c] / free, 0.05, 20.0);
     noise.sigma[c] = std::max(noise.sigma[c] * std::sqrt(factor), 1e-10);
-    change = std::max(change, std::abs(std::sqrt(factor) - 1));
+    white = std::max(white, std::abs(std::sqrt(factor) - 1));
   }
-  const auto update = [&](std::size_t group, double& q) {
-    if (m.defect_count[group] < 4 || q <= 0) return;
-    // MacKay's fixed point: the squared defects over the number of defects that the data determine.
-    const double determined = m.defect_count[group] - m.defect_variance[group] / q;
-    const double fixed_point = m.defect_square[group] / std::max(determined, 0.02 * m.defect_count[group]);
-    const double next = std::clamp(fixed_point, 0.02 * q, 50 * q);
-    change = std::max(change, 0.3 * std::abs(std::sqrt(next / q) - 1));
-    q = next;
-  };
-  update(0, noise.q_w);
-  update(1, noise.q_v);
-  update(2, noise.q_motor);
   smoother.set_noise(noise);
-  return change;
+  return std::max(0.3 * change, white);
 }
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise) {
-  // Time in which the process noise grows to what the measurements tell: sqrt(r/q), r = sigma^2 per second of
-  // samples.
-  double tau = 1.0;
-  const auto shorten = [&](int channel, double q) {
-    double samples = 0;
-    for (const FlightArc& arc : record.arcs)
-      for (std::size_t i = 0; i < arc.rows(); ++i)
-        samples += std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(channel)]);
-    if (samples > 0 && q > 0)
-      tau = std::min(
-          tau, noise.sigma[static_cast<std::size_t>(channel)] * std::sqrt(record.duration / samples / q));
+  // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
+  // the velocity by h/4 of that: this may reach half the noise of one sample.
+  double h = 0.25;
+  const auto shorten = [&](int channel, const ColouredNoise& process) {
+    double samples = 0, sigma = 0;
+    for (int i = channel; i < channel + 3; ++i) {
+      sigma = std::max(sigma, noise.sigma[static_cast<std::size_t>(i)]);
+      for (const FlightArc& arc : record.arcs)
+        for (std::size_t row = 0; row < arc.rows(); ++row)
+          samples += std::isfinite(arc.y[row * kChannels + static_cast<std::size_t>(i)]);
+    }
+    if (samples > 0 && process.sigma > 0)
+      h = std::min(h, std::pow(2 * sigma * std::sqrt(process.tau / 2) / process.sigma, 2.0 / 3.0));
   };
-  shorten(kGyro, noise.q_w);
-  shorten(kVelocity, noise.q_v);
-  return std::clamp(tau, std::max(2.0 * record.interval, 0.02), 1.0);
+  shorten(kGyro, noise.w_dot);
+  shorten(kVelocity, noise.v_dot);
+  return std::clamp(h, std::max(4.0 * record.interval, 0.03), 0.25);
 }
 
 VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double tolerance, int max_steps,
@@ -144,7 +153,7 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
   problem.max_steps = max_steps;
   problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
     if (last.size() == 0 || u != last) {
-      system = smoother.linearize(u);
+      system = smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
       last = u;
     }
     if (!std::isfinite(system.cost) || !system.S.allFinite()) {
@@ -173,37 +182,36 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
   FlightFit fit;
-  NoiseModel noise = options.noise.value_or(initial_noise(record));
   const auto tell = [&](double share) {
     if (options.progress) options.progress(share);
   };
-  double chunk =
-      options.chunk_seconds > 0 ? options.chunk_seconds : std::clamp(8 * record.interval, 0.05, 0.25);
-  auto smoother = std::make_shared<FlightSmoother>(record, theta, noise, chunk, options.threads);
-  const double huber = options.robust ? 4.0 : 1e9;
-  smoother->set_huber(huber);
+  double chunk = options.chunk_seconds > 0 ? options.chunk_seconds : std::max(0.1, 4 * record.interval);
+  auto smoother = std::make_shared<FlightSmoother>(
+      record, theta, options.noise.value_or(initial_noise(record)), chunk, options.threads);
+  // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
+  smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
   VectorXd u = VectorXd::Zero(theta.size());
-  smoother->settle(u, 2);
-  u = minimise_shared(*smoother, u, 1e-4, 8, &fit.steps);
+  smoother->settle(u, 1);
+  u = minimise_shared(*smoother, u, 1e-2, 2, &fit.steps);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
-    smoother->settle(u, 1);
-    const double change = update_noise(*smoother);
+    smoother->linearize(u, true);
+    smoother->accept();
+    if (options.robust) smoother->set_huber(kHuber);
+    const double change = update_noise(*smoother, 6);
     const double wanted = options.chunk_seconds > 0 ? chunk : chunk_for(record, smoother->noise());
-    if (wanted > 1.5 * chunk || wanted < chunk / 1.5) {
-      noise = smoother->noise();
+    if (round < 2 && (wanted > 1.5 * chunk || wanted < chunk / 1.5)) {
       chunk = wanted;
-      smoother = std::make_shared<FlightSmoother>(record, theta, noise, chunk, options.threads);
-      smoother->set_huber(huber);
-      smoother->settle(u, 2);
+      smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
+      smoother->set_huber(options.robust ? kHuber : 1e9);
+      smoother->settle(u, 1);
     }
-    u = minimise_shared(*smoother, u, 1e-5, 3, &fit.steps);
+    u = minimise_shared(*smoother, u, 1e-3, 1, &fit.steps);
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
     if (change < 0.03) break;
   }
   u = minimise_shared(*smoother, u, options.tolerance, 30, &fit.steps, &fit.cost);
-  smoother->settle(u, 1);
-  const ReducedSystem system = smoother->linearize(u);
+  const ReducedSystem system = smoother->stands_at(u) ? smoother->relinearize() : smoother->linearize(u);
   smoother->accept();
   fit.u = u;
   fit.information = system.S;
@@ -211,23 +219,22 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   fit.chunk_seconds = chunk;
   const MatrixXd prior = prior_information(theta, u);
   fit.naive_covariance = inverse_of(system.S + prior);
-  // Sandwich over blocks of time, never below the naive one in any direction of interest (the diagonal).
-  const MatrixXd scores = smoother->block_scores(options.block_seconds);
-  const double blocks = static_cast<double>(scores.cols());
-  fit.covariance = fit.naive_covariance;
-  if (blocks >= 8) {
-    const MatrixXd centred = scores.colwise() - scores.rowwise().mean();
-    const MatrixXd meat = centred * centred.transpose() * (blocks / (blocks - 1)) + prior;
-    const MatrixXd sandwich = fit.naive_covariance * meat * fit.naive_covariance;
-    VectorXd stretch(u.size());
-    for (int i = 0; i < u.size(); ++i)
-      stretch[i] = std::sqrt(std::max(1.0, sandwich(i, i) / fit.naive_covariance(i, i)));
-    fit.covariance = stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
-  }
+  fit.blocks = smoother->score_blocks(options.block_seconds);
+  fit.covariance = corrected_for_colour(fit, prior);
   fit.smoother = smoother;
   fit.converged = true;
   tell(1.0);
   return fit;
+}
+
+VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
+                       const std::function<bool(const ScoreBlock&)>& take) {
+  const PriorTerms prior = theta.prior(fit.u);
+  MatrixXd H = prior_information(theta, fit.u);
+  VectorXd g = prior.slope.cwiseProduct(prior.residual);
+  for (const ScoreBlock& block : fit.blocks)
+    if (take(block)) H += block.information, g += block.score;
+  return fit.u - inverse_of(H) * g;
 }
 
 }  // namespace ident

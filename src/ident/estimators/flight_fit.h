@@ -31,11 +31,16 @@ struct FlightFit {
   double chunk_seconds = 0.0;
   int steps = 0, evaluations = 0;
   bool converged = false;
+  std::vector<ScoreBlock> blocks;            ///< what stretches of `block_seconds` say
   std::shared_ptr<FlightSmoother> smoother;  ///< at the optimum; refers to the record and theta of the call
 };
 
 /// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
+
+/// The shared unknowns as the blocks that `take` accepts would have them: one Newton step from the fit.
+Eigen::VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
+                              const std::function<bool(const ScoreBlock&)>& take);
 
 /// The shared unknowns alone, states and noise as they are: Ceres over `smoother` from `u`.
 Eigen::VectorXd minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& u, double tolerance,
@@ -44,9 +49,9 @@ Eigen::VectorXd minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd&
 /// Levels of noise to start from: white noise from differences, a generous process noise.
 NoiseModel initial_noise(const FlightRecord& record);
 
-/// One fixed-point step of the noise levels from the residual moments at the smoother's states; returns the
-/// largest relative change of a standard deviation.
-double update_noise(FlightSmoother& smoother);
+/// Noise levels from the last linearisation, which had leverages: `rounds` steps for the process noise, one
+/// for the sensors; returns the largest relative change of a standard deviation.
+double update_noise(FlightSmoother& smoother, int rounds);
 
 /// Chunks short enough for that noise, s.
 double chunk_for(const FlightRecord& record, const NoiseModel& noise);

@@ -33,6 +33,7 @@ struct StateLayout {
   int rotors = 0;                            ///< of the vehicle
   int w = 0, attitude = -1, v = -1, x = -1;  ///< three components each
   int motors = -1;                           ///< Omega of all rotors, then their rates
+  int w_dot = -1, v_dot = -1;                ///< accelerations from outside, three components each
   int size = 3;
 };
 
@@ -40,6 +41,7 @@ struct StateLayout {
 struct Seed {
   int slot = 0, direction = 0;
   double derivative = 0.0;
+  EffectMask effect = 0;  ///< the one that the constant belongs to
 };
 
 struct ChunkTask {
@@ -49,7 +51,7 @@ struct ChunkTask {
   std::span<const double> p;          ///< the model's constants
   std::array<double, 3> gyro_bias{};  ///< rad/s
   std::span<const Seed> seeds;
-  EffectMask active = 0;
+  EffectMask active = 0;  ///< effects off their null values
   int thetas = 0;
   std::size_t begin = 0, end = 0;  ///< rows [begin, end); simulated to row `end`
   std::size_t rows = 0;            ///< of the whole arc

@@ -3,134 +3,9 @@
 
 #include <cstring>
 
-#include "ident/core/dual.h"
-#include "ident/estimators/flight_kernel.h"
+#include "ident/estimators/flight_chunk_run.h"
 
 namespace ident {
-
-/// Simulates a chunk on scalar S and hands every predicted measurement to `sink(row, channel, residual)`.
-template <class Isa, class S>
-class ChunkRun {
- public:
-  using Effects = EffectSet<S>;
-
-  ChunkRun(const ChunkTask& task, std::span<const S> p, const S* bias)
-      : task_(task),
-        effects_(p, task.active),
-        flight_(*task.vehicle, p, effects_, *task.inputs),
-        bias_(bias) {}
-
-  template <class Sink>
-  FlightState<S> operator()(FlightState<S> x, Sink&& sink) {
-    const double* t = task_.t;
-    delay_beyond_ = flight_.sensor_delay() - task_.shift;
-    delayed_ = !is_identically_zero(delay_beyond_);
-    const std::size_t last = task_.end;
-    BodyRate<S> rate = flight_.rate(x, t[task_.begin]);
-    std::size_t delayed_row = first_delayed_row();
-    for (std::size_t i = task_.begin; i < last; ++i) {
-      prompt_channels(i, x, rate, sink);
-      if (task_.shift == 0) delayed_channels(i, x.body.w_B, rate.w_dot_B, x.body.q_WB, sink, x, rate);
-      const int parts = 1 + static_cast<int>((t[i + 1] - t[i]) / task_.max_step);
-      const double h = (t[i + 1] - t[i]) / parts;
-      for (int part = 0; part < parts; ++part) {
-        const double from = t[i] + part * h;
-        const FlightState<S> before = x;
-        const BodyRate<S> rate_before = rate;
-        x = flight_.step(x, from, h, rate);
-        rate = flight_.rate(x, from + h);
-        if (task_.shift == 0) continue;
-        const double to = part + 1 == parts ? t[i + 1] : from + h;
-        while (delayed_row < rows_end() && t[delayed_row] - task_.shift < to) {
-          interpolated_channels(delayed_row, (t[delayed_row] - task_.shift - from) / h, h, before,
-                                rate_before, x, rate, sink);
-          ++delayed_row;
-        }
-      }
-    }
-    return x;
-  }
-
- private:
-  std::size_t rows_end() const { return task_.rows; }
-
-  std::size_t first_delayed_row() const {
-    std::size_t row = task_.begin;
-    if (task_.shift == 0) return row;
-    while (row < rows_end() && task_.t[row] - task_.shift < task_.t[task_.begin]) ++row;
-    return row;
-  }
-
-  bool sampled(std::size_t row, int channel) const {
-    const double y = task_.y[row * kChannels + static_cast<std::size_t>(channel)];
-    return y == y;
-  }
-  double y(std::size_t row, int channel) const {
-    return task_.y[row * kChannels + static_cast<std::size_t>(channel)];
-  }
-
-  template <class Sink>
-  void prompt_channels(std::size_t i, const FlightState<S>& x, const BodyRate<S>& rate, Sink& sink) {
-    if (sampled(i, kForce) || sampled(i, kForce + 2)) {
-      const SensorSeam<S> imu = flight_.imu(x.body, rate);
-      for (int k = 0; k < 3; ++k)
-        if (sampled(i, kForce + k)) sink(i, kForce + k, S(imu.f_B[k] - y(i, kForce + k)));
-    }
-    for (int k = 0; k < 3; ++k) {
-      if (sampled(i, kVelocity + k)) sink(i, kVelocity + k, S(x.body.v_W[k] - y(i, kVelocity + k)));
-      if (sampled(i, kPosition + k)) sink(i, kPosition + k, S(x.body.x_W[k] - y(i, kPosition + k)));
-    }
-    if (task_.layout.motors < 0) return;
-    for (int n = 0; n < task_.layout.rotors; ++n)
-      if (sampled(i, kRotorChannel + n))
-        sink(i, kRotorChannel + n, S(x.motors[static_cast<std::size_t>(n)].Omega - y(i, kRotorChannel + n)));
-  }
-
-  // Rates and attitude, which a sensor delay shifts: first order about `shift`.
-  template <class Sink>
-  void delayed_channels(std::size_t row, const Vec3<S>& w, const Vec3<S>& w_dot, const Vec4<S>& q, Sink& sink,
-                        const FlightState<S>& x, const BodyRate<S>& rate) {
-    if (sampled(row, kGyro) || sampled(row, kGyro + 1) || sampled(row, kGyro + 2)) {
-      BodyState<S> then = x.body;
-      then.w_B = w;
-      if (delayed_) then.w_B -= delay_beyond_ * w_dot;
-      const SensorSeam<S> imu = flight_.imu(then, rate);
-      for (int k = 0; k < 3; ++k)
-        if (sampled(row, kGyro + k)) sink(row, kGyro + k, S(imu.gyro[k] + bias_[k] - y(row, kGyro + k)));
-    }
-    if (sampled(row, kAttitude) && task_.layout.attitude >= 0) {
-      const double* m = task_.q + 4 * row;
-      const Vec4<double> inverse(m[0], -m[1], -m[2], -m[3]);
-      Vec4<S> d = quaternion_product(inverse, q);
-      const double sign = value(d[0]) < 0 ? -2.0 : 2.0;
-      for (int k = 0; k < 3; ++k) {
-        S turn = sign * d[1 + k];
-        if (delayed_) turn = turn - delay_beyond_ * w[k];
-        sink(row, kAttitude + k, turn);
-      }
-    }
-  }
-
-  // Cubic Hermite interpolation of rates and attitude at the fraction `u` of a step of h seconds.
-  template <class Sink>
-  void interpolated_channels(std::size_t row, double u, double h, const FlightState<S>& a,
-                             const BodyRate<S>& ra, const FlightState<S>& b, const BodyRate<S>& rb,
-                             Sink& sink) {
-    const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h01 = u * u * (3 - 2 * u);
-    const double h10 = u * (1 - u) * (1 - u) * h, h11 = u * u * (u - 1) * h;
-    const Vec3<S> w = h00 * a.body.w_B + h01 * b.body.w_B + h10 * ra.w_dot_B + h11 * rb.w_dot_B;
-    const Vec3<S> w_dot = (1 - u) * ra.w_dot_B + u * rb.w_dot_B;
-    const Vec4<S> q = h00 * a.body.q_WB + h01 * b.body.q_WB + h10 * ra.q_dot + h11 * rb.q_dot;
-    delayed_channels(row, w, w_dot, q, sink, a, ra);
-  }
-
-  const ChunkTask& task_;
-  Effects effects_;
-  Flight<S, Effects> flight_;
-  const S* bias_;
-  S delay_beyond_;
-  bool delayed_ = false;
-};
 
 template <class Isa>
 class ChunkKernel {
@@ -145,8 +20,66 @@ class ChunkKernel {
 
  private:
   ChunkKernel(const ChunkTask& task, ChunkResult& out)
-      : task_(task), out_(out), d_(task.layout.size + task.thetas), packs_((d_ + 7) / 8) {
-    packs_ = packs_ > dual_packs() ? packs_ : dual_packs();
+      : task_(task), out_(out), d_(task.layout.size + task.thetas) {
+    list_columns();
+  }
+
+  // A column of J: `external` is its place in the caller's order, state first, then shared unknowns.
+  // Internally those that need dual numbers come first; the others follow from the time since the chunk's
+  // start.
+  enum class Kind { dual, position, velocity, push, bias };
+  struct Column {
+    int external = -1, axis = 0;
+    Kind kind = Kind::dual;
+    double derivative = 1.0;
+  };
+
+  void list_columns() {
+    const StateLayout& layout = task_.layout;
+    // Without drag or effects off their null values nothing depends on velocity and position, and nothing
+    // stands between an acceleration and the accelerometer.
+    const bool plain = task_.active == 0 && task_.p.data()[param::Kdx] == 0 &&
+                       task_.p.data()[param::Kdy] == 0 && task_.p.data()[param::Kdz] == 0 &&
+                       !seeded_with(param::Kdx) && !seeded_with(param::Kdy) && !seeded_with(param::Kdz);
+    const auto within = [](int i, int first) { return first >= 0 && i >= first && i < first + 3; };
+    const auto kind_of = [&](int i) {
+      if (plain && within(i, layout.x)) return Kind::position;
+      if (plain && within(i, layout.v)) return Kind::velocity;
+      if (plain && within(i, layout.v_dot)) return Kind::push;
+      return Kind::dual;
+    };
+    place_ = table<Place>(static_cast<std::size_t>(d_));
+    column_ = table<Column>(static_cast<std::size_t>(d_) + 64);
+    for (int i = 0; i < d_; ++i) place_[i] = {-1};
+    columns_ = 0;
+    const auto add = [&](const Column& column) {
+      place_[column.external].at = columns_;
+      column_[columns_++] = column;
+    };
+    for (int i = 0; i < layout.size; ++i)
+      if (kind_of(i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
+    for (const Seed& seed : task_.seeds)
+      if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
+    // The rest of the packs of dual numbers stays empty: sweeps are four or two packs wide.
+    dual_packs_ = 2 * ((columns_ + 15) / 16);
+    while (columns_ < 8 * dual_packs_) column_[columns_++] = {-1, 0, Kind::dual, 0.0};
+    for (int i = 0; i < layout.size; ++i) {
+      const int first = kind_of(i) == Kind::position   ? layout.x
+                        : kind_of(i) == Kind::velocity ? layout.v
+                                                       : layout.v_dot;
+      if (kind_of(i) != Kind::dual) add({i, i - first, kind_of(i), 1.0});
+    }
+    for (const Seed& seed : task_.seeds)
+      if (seed.slot >= kParameterCount)
+        add({layout.size + seed.direction, seed.slot - kParameterCount, Kind::bias, seed.derivative});
+    packs_ = (columns_ + 7) / 8;
+    while (columns_ < 8 * packs_) column_[columns_++] = {-1, 0, Kind::dual, 0.0};
+  }
+
+  bool seeded_with(int slot) const {
+    for (const Seed& seed : task_.seeds)
+      if (seed.slot == slot) return true;
+    return false;
   }
 
   // A pack of its own type for each instruction set, and aligned on the heap.
@@ -168,7 +101,7 @@ class ChunkKernel {
     const std::size_t size = (task.end - task.begin) * kChannels;
     if (out.residuals.size() != size) out.residuals.resize(size);
     for (std::size_t i = 0; i < size; ++i) out.residuals.data()[i] = __builtin_nan("");
-    ChunkRun<Isa, double> run(task, task.p, task.gyro_bias.data());
+    ChunkRun<Isa, double> run(task, task.p, task.active, task.gyro_bias.data());
     out.x_end = run(task.x0, [&](std::size_t row, int channel, double r) {
       r *= task.weight[channel];
       const double a = r < 0 ? -r : r;
@@ -180,30 +113,29 @@ class ChunkKernel {
   }
 
   void with_jacobian() {
-    thread_local std::vector<AlignedPack> rows;
     const std::size_t most = (task_.end - task_.begin + 64) * kChannels;
-    const auto stride = static_cast<std::size_t>(packs_);
-    if (rows.size() < most * stride) rows = std::vector<AlignedPack>(most * stride);
-    J_ = &rows.data()->pack;
+    J_ = &table<AlignedPack>(most * static_cast<std::size_t>(packs_))->pack;
+    sample_ = table<Sample>(most);
     out_.cost = 0;
     out_.square = out_.leverage = out_.count = {};
     samples_ = 0;
     const std::size_t n = static_cast<std::size_t>(task_.layout.size), d = static_cast<std::size_t>(d_);
     resize(out_.A, d * d), resize(out_.g, d), resize(out_.E, n * d);
+    for (double& x : out_.A) x = 0;
     for (double& x : out_.g) x = 0;
+    for (double& x : out_.E) x = 0;
     int pack = 0;
     bool first = true;
-    const int dual = dual_packs();
-    while (pack < dual) {
-      const int left = dual - pack;
+    while (pack < dual_packs_) {
+      const int left = dual_packs_ - pack;
       // Two widths only: each one is a whole copy of the model in the program.
-      if (left >= 3)
+      if (left >= 4)
         sweep<4>(pack, first), pack += 4;
       else
-        sweep<1>(pack, first), pack += 1;
+        sweep<2>(pack, first), pack += 2;
       first = false;
     }
-    gyro_bias();
+    analytic_gradient();
     square();
     if (task_.covariance) leverages();
   }
@@ -216,19 +148,22 @@ class ChunkKernel {
   void sweep(int pack, bool first) {
     using S = Dual<K, Isa>;
     const int from = 8 * pack, to = from + 8 * K;
+    EffectMask effects = task_.active;  // those off their null values, and those of this sweep's directions
     S p[kParameterCount], bias[3];
     for (int i = 0; i < kParameterCount; ++i) p[i] = S(task_.p.data()[i]);
     for (int k = 0; k < 3; ++k) bias[k] = S(task_.gyro_bias[static_cast<std::size_t>(k)]);
-    const int n = task_.layout.size;
     for (const Seed& seed : task_.seeds) {
-      const int at = n + seed.direction;
+      if (seed.slot >= kParameterCount) continue;
+      const int at = place_[task_.layout.size + seed.direction].at;
       if (at < from || at >= to) continue;
-      if (seed.slot < kParameterCount) p[seed.slot].seed(at - from, seed.derivative);
+      p[seed.slot].seed(at - from, seed.derivative);
+      effects |= seed.effect;
     }
-    ChunkRun<Isa, S> run(task_, std::span<const S>(p, static_cast<std::size_t>(kParameterCount)), bias);
+    ChunkRun<Isa, S> run(task_, std::span<const S>(p, static_cast<std::size_t>(kParameterCount)), effects,
+                         bias);
     std::size_t sample = 0;
     Pack8 gradient[K] = {};
-    const FlightState<S> end = run(seeded<S>(from, to), [&](std::size_t, int channel, const S& residual) {
+    const FlightState<S> end = run(seeded<S>(from, to), [&](std::size_t i, int channel, const S& residual) {
       const double weight = task_.weight[channel], r = residual.v * weight, a = r < 0 ? -r : r;
       // Huber: beyond the bend the row is scaled so that J'J and J'r are those of rho.
       const double bend = a <= task_.huber ? 1.0 : __builtin_sqrt(task_.huber / a);
@@ -240,11 +175,17 @@ class ChunkKernel {
         count(out_, channel, r, task_.huber, 0.0);
       }
       for (int k = 0; k < K; ++k) gradient[k] += row[k] * (r * bend);
-      if (first) sample_of(sample) = {scale, r * bend, channel};
+      if (first) {
+        sample_[sample] = {scale, r * bend, channel};
+        analytic(J_ + sample * static_cast<std::size_t>(packs_), channel, task_.t[i] - task_.t[task_.begin],
+                 run.attitude(), scale);
+      }
       ++sample;
     });
     samples_ = sample;
-    for (int i = 0; i < 8 * K && from + i < d_; ++i) out_.g.data()[from + i] = gradient[i / 8][i % 8];
+    for (int i = from; i < to; ++i)
+      if (column_[i].external >= 0)
+        out_.g.data()[column_[i].external] = gradient[(i - from) / 8][(i - from) % 8];
     store_end(end, from);
     if (first) out_.x_end = values(end);
   }
@@ -254,7 +195,8 @@ class ChunkKernel {
     const FlightState<double>& x = task_.x0;
     const StateLayout& layout = task_.layout;
     FlightState<S> s;
-    const auto seed = [&](S& scalar, int at, double derivative) {
+    const auto seed = [&](S& scalar, int external, double derivative) {
+      const int at = place_[external].at;
       if (at >= from && at < to) scalar.seed(at - from, derivative);
     };
     for (int k = 0; k < 4; ++k) s.body.q_WB[k] = S(x.body.q_WB[k]);
@@ -263,6 +205,9 @@ class ChunkKernel {
       seed(s.body.w_B[k], layout.w + k, 1.0);
       if (layout.v >= 0) seed(s.body.v_W[k], layout.v + k, 1.0);
       if (layout.x >= 0) seed(s.body.x_W[k], layout.x + k, 1.0);
+      s.outside.w_dot_B[k] = S(x.outside.w_dot_B[k]), s.outside.v_dot_W[k] = S(x.outside.v_dot_W[k]);
+      if (layout.w_dot >= 0) seed(s.outside.w_dot_B[k], layout.w_dot + k, 1.0);
+      if (layout.v_dot >= 0) seed(s.outside.v_dot_W[k], layout.v_dot + k, 1.0);
       if (layout.attitude < 0) continue;
       Vec4<double> half(0, 0, 0, 0);
       half[1 + k] = 0.5;
@@ -282,7 +227,8 @@ class ChunkKernel {
   template <class S>
   void put_end(int row, const S& scalar, int from) {
     double* E = out_.E.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(d_);
-    for (int i = 0; i < S::width && from + i < d_; ++i) E[from + i] = scalar.derivative(i);
+    for (int i = 0; i < S::width; ++i)
+      if (column_[from + i].external >= 0) E[column_[from + i].external] = scalar.derivative(i);
   }
 
   template <class S>
@@ -295,6 +241,8 @@ class ChunkKernel {
       if (layout.attitude >= 0) put_end(layout.attitude + k, S(2.0 * turn[1 + k]), from);
       if (layout.v >= 0) put_end(layout.v + k, end.body.v_W[k], from);
       if (layout.x >= 0) put_end(layout.x + k, end.body.x_W[k], from);
+      if (layout.w_dot >= 0) put_end(layout.w_dot + k, end.outside.w_dot_B[k], from);
+      if (layout.v_dot >= 0) put_end(layout.v_dot + k, end.outside.v_dot_W[k], from);
     }
     if (layout.motors < 0) return;
     for (int i = 0; i < layout.rotors; ++i) {
@@ -304,13 +252,15 @@ class ChunkKernel {
   }
 
   template <class S>
-  static FlightState<double> values(const FlightState<S>& s) {
-    FlightState<double> x;
+  FlightState<double> values(const FlightState<S>& s) const {
+    FlightState<double> x = task_.x0;
     for (int k = 0; k < 4; ++k) x.body.q_WB[k] = s.body.q_WB[k].v;
     for (int k = 0; k < 3; ++k) {
       x.body.w_B[k] = s.body.w_B[k].v, x.body.v_W[k] = s.body.v_W[k].v, x.body.x_W[k] = s.body.x_W[k].v;
+      x.outside.w_dot_B[k] = s.outside.w_dot_B[k].v, x.outside.v_dot_W[k] = s.outside.v_dot_W[k].v;
     }
-    for (std::size_t i = 0; i < kMaxRotors; ++i) x.motors[i] = {s.motors[i].Omega.v, s.motors[i].Omega_dot.v};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(task_.layout.rotors); ++i)
+      x.motors[i] = {s.motors[i].Omega.v, s.motors[i].Omega_dot.v};
     return x;
   }
 
@@ -327,8 +277,8 @@ class ChunkKernel {
         }
         for (int i = 0; i < 8; ++i)
           for (int k = 0; k < 8; ++k) {
-            const int r = 8 * bi + i, c = 8 * bk + k;
-            if (r >= d_ || c >= d_) continue;
+            const int r = column_[8 * bi + i].external, c = column_[8 * bk + k].external;
+            if (r < 0 || c < 0) continue;
             out_.A.data()[r * d_ + c] = sum[i][k];
             out_.A.data()[c * d_ + r] = sum[i][k];
           }
@@ -345,66 +295,100 @@ class ChunkKernel {
       const double* j = J + s * stride;
       double sum = 0;
       for (int a = 0; a < n; ++a) {
+        const double ja = j[place_[a].at];
+        if (ja == 0) continue;
         double row = 0;
-        for (int b = 0; b < n; ++b) row += task_.covariance[a * n + b] * j[b];
-        sum += j[a] * row;
+        for (int b = 0; b < n; ++b) row += task_.covariance[a * n + b] * j[place_[b].at];
+        sum += ja * row;
       }
-      out_.leverage[static_cast<std::size_t>(sample_of(s).channel)] += sum;
+      out_.leverage[static_cast<std::size_t>(sample_[s].channel)] += sum;
     }
   }
 
-  // The gyro bias adds to the rates as shown, so its derivative needs no dual number.
-  void gyro_bias() {
-    const int dual = dual_packs();
+  // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world
+  // frame, and a bias that adds to the rates as shown.
+  template <class S>
+  void analytic(Pack8* row, int channel, double t, const Vec4<S>& q, double scale) const {
+    for (int k = dual_packs_; k < packs_; ++k) row[k] = Pack8{};
+    for (int i = 8 * dual_packs_; i < columns_; ++i) {
+      const Column& column = column_[i];
+      if (column.external < 0) continue;
+      const double slope = slope_of(column, channel, t, q);
+      if (slope != 0) row[i / 8][i % 8] = slope * scale;
+    }
+  }
+
+  template <class S>
+  static double slope_of(const Column& column, int channel, double t, const Vec4<S>& q) {
+    const bool velocity = channel == kVelocity + column.axis, position = channel == kPosition + column.axis;
+    switch (column.kind) {
+      case Kind::position:
+        return position ? 1.0 : 0.0;
+      case Kind::velocity:
+        return velocity ? 1.0 : position ? t : 0.0;
+      case Kind::push:
+        if (velocity || position) return velocity ? t : 0.5 * t * t;
+        return channel >= kForce && channel < kForce + 3 ? turned(q, column.axis, channel - kForce) : 0.0;
+      case Kind::bias:
+        return channel == kGyro + column.axis ? column.derivative : 0.0;
+      default:
+        return 0.0;
+    }
+  }
+
+  // Element (row, column) of the rotation from body to world.
+  template <class S>
+  static double turned(const Vec4<S>& q, int row, int column) {
+    const double w = value(q[0]), v[3] = {value(q[1]), value(q[2]), value(q[3])};
+    if (row == column) return w * w + 2 * v[row] * v[row] - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const int third = 3 - row - column;
+    const double sign = (column - row + 3) % 3 == 1 ? -1.0 : 1.0;
+    return 2 * (v[row] * v[column] + sign * w * v[third]);
+  }
+
+  // Gradient and end state of the analytic columns.
+  void analytic_gradient() {
     const auto stride = static_cast<std::size_t>(packs_);
-    for (std::size_t s = 0; s < samples_ && dual < packs_; ++s)
-      for (int k = dual; k < packs_; ++k) J_[s * stride + static_cast<std::size_t>(k)] = Pack8{};
-    const std::size_t n = static_cast<std::size_t>(task_.layout.size), d = static_cast<std::size_t>(d_);
-    for (std::size_t r = 0; r < n; ++r)
-      for (std::size_t c = 8 * static_cast<std::size_t>(dual); c < d; ++c) out_.E.data()[r * d + c] = 0;
-    for (const Seed& seed : task_.seeds) {
-      if (seed.slot < kParameterCount) continue;
-      const auto at = static_cast<std::size_t>(task_.layout.size + seed.direction);
+    const double h = task_.t[task_.end] - task_.t[task_.begin];
+    const StateLayout& layout = task_.layout;
+    for (int i = 8 * dual_packs_; i < columns_; ++i) {
+      const Column& column = column_[i];
+      if (column.external < 0) continue;
       double sum = 0;
-      for (std::size_t s = 0; s < samples_; ++s) {
-        const Sample& sample = sample_of(s);
-        if (sample.channel != kGyro + seed.slot - kParameterCount) continue;
-        const double slope = seed.derivative * sample.scale;
-        J_[s * stride + at / 8][at % 8] = slope;
-        sum += slope * sample.residual;
-      }
-      out_.g.data()[at] = sum;
+      for (std::size_t s = 0; s < samples_; ++s)
+        sum += J_[s * stride + static_cast<std::size_t>(i / 8)][i % 8] * sample_[s].residual;
+      out_.g.data()[column.external] = sum;
+      const auto end = [&](int component, double derivative) {
+        if (component >= 0) out_.E.data()[(component + column.axis) * d_ + column.external] = derivative;
+      };
+      if (column.kind == Kind::position) end(layout.x, 1.0);
+      if (column.kind == Kind::velocity) end(layout.v, 1.0), end(layout.x, h);
+      if (column.kind == Kind::push) end(layout.v_dot, 1.0), end(layout.v, h), end(layout.x, h * h / 2);
     }
   }
 
-  // Packs that hold a direction of the state or of a constant of the model.
-  int dual_packs() const {
-    int last = task_.layout.size;
-    for (const Seed& seed : task_.seeds)
-      if (seed.slot < kParameterCount && task_.layout.size + seed.direction + 1 > last)
-        last = task_.layout.size + seed.direction + 1;
-    const int packs = (last + 7) / 8;
-    // Three packs are done by a sweep of four.
-    return packs % 4 == 3 ? packs + 1 : packs;
-  }
-
+  struct Place {
+    int at = -1;
+  };
   struct Sample {
     double scale = 0, residual = 0;
     int channel = 0;
   };
-  Sample& sample_of(std::size_t sample) {
-    thread_local std::vector<Sample> samples;
-    if (samples.size() <= sample) {
-      std::vector<Sample> more(2 * sample + 4096);
-      for (std::size_t i = 0; i < samples.size(); ++i) more.data()[i] = samples.data()[i];
-      samples.swap(more);
-    }
-    return samples.data()[sample];
+
+  // Memory that stays from chunk to chunk; types of this class, so that no other build shares their code.
+  template <class T>
+  static T* table(std::size_t size) {
+    thread_local std::vector<T> memory;
+    if (memory.size() < size) memory = std::vector<T>(size + size / 2);
+    return memory.data();
   }
 
   const ChunkTask& task_;
   ChunkResult& out_;
-  int d_, packs_;
+  int d_, columns_ = 0, dual_packs_ = 0, packs_ = 0;
+  Place* place_ = nullptr;
+  Column* column_ = nullptr;
+  Sample* sample_ = nullptr;
   Pack8* J_ = nullptr;
   std::size_t samples_ = 0;
 };

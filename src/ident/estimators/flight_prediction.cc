@@ -25,16 +25,29 @@ FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const 
   return out;
 }
 
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Covariance of an unknown constant acceleration that moves velocities as much as the process does on average
+// over the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
+void expect_outside(RowMatrix& P, int at, const ColouredNoise& noise, double horizon) {
+  if (at < 0) return;
+  const double T = horizon / 2, moved = 2 * noise.tau * (T - noise.tau * (1 - noise.carried(T))) / (T * T);
+  for (int i = at; i < at + 3; ++i) {
+    P.row(i).setZero(), P.col(i).setZero();
+    P(i, i) = noise.sigma * noise.sigma * moved;
+  }
+}
+
 struct Start {
   std::size_t arc, first, row;  ///< history from `first`, window from `row`
 };
 
 std::vector<Start> window_starts(const FlightRecord& record, const PredictionOptions& options) {
   std::vector<Start> starts;
+  const double shortest = *std::ranges::min_element(options.horizons);
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
-    for (double t = arc.t.front() + options.history; t + options.horizon < arc.t.back();
-         t += options.spacing) {
+    for (double t = arc.t.front() + options.history; t + shortest < arc.t.back(); t += options.spacing) {
       const auto at = [&](double x) {
         return static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), x) - arc.t.begin());
       };
@@ -60,63 +73,63 @@ double PredictionWindow::floor2() const {
   return n > 0 ? sum / n : kNaN;
 }
 
-std::vector<PredictionWindow> predict_windows(const FlightRecord& record, const Theta& theta,
-                                              const Eigen::VectorXd& u, const NoiseModel& noise,
-                                              const PredictionOptions& options) {
+std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& record, const Theta& theta,
+                                                           const Eigen::VectorXd& u, const NoiseModel& noise,
+                                                           const PredictionOptions& options) {
   const std::vector<double> p = theta.p(u);
   const Theta fixed(p, {}, 1, false);
   FlightRecord past = record;
   past.arcs.clear();
   past.logs = 1;
   const std::vector<Start> starts = window_starts(record, options);
-  if (starts.empty()) return {};
+  std::vector<std::vector<PredictionWindow>> all(options.horizons.size());
+  if (starts.empty()) return all;
   for (const Start& s : starts)
     past.arcs.push_back(
         piece(record.arcs[s.arc], s.first, s.row + 1, theta.gyro_bias(u, record.arcs[s.arc].log)));
   FlightSmoother smoother(past, fixed, noise, std::clamp(chunk_for(record, noise), 0.04, 0.4),
                           options.threads);
-  const Eigen::VectorXd none(0);
-  smoother.settle(none, 3);
+  smoother.settle(Eigen::VectorXd(0), 2);
   const std::vector<FlightSmoother::End> ends = smoother.arc_ends();
   std::array<double, kChannels> weight;
   for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / noise.sigma[c];
-  std::vector<PredictionWindow> windows;
-  ChunkResult result;
-  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  for (std::size_t w = 0; w < starts.size(); ++w) {
+  ChunkTask task;
+  task.vehicle = record.vehicle, task.layout = record.layout;
+  task.p = p, task.active = active_effects(p);
+  task.weight = weight.data();
+  task.huber = 1e6;  // errors of a wrong model count in full
+  const auto predict = [&](std::size_t w, double horizon) {
     const FlightArc& arc = record.arcs[starts[w].arc];
-    const auto last = static_cast<std::size_t>(
-        std::lower_bound(arc.t.begin(), arc.t.end(), arc.t[starts[w].row] + options.horizon) - arc.t.begin());
-    // Gusts over half the horizon stand for their growth along the window.
+    const double until = arc.t[starts[w].row] + horizon;
+    ChunkTask one = task;
+    one.inputs = &arc.inputs, one.gyro_bias = theta.gyro_bias(u, arc.log);
+    one.begin = starts[w].row, one.rows = arc.rows();
+    one.end = static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), until) - arc.t.begin());
+    one.t = arc.t.data(), one.y = arc.y.data(), one.q = arc.q.data();
+    one.x0 = ends[w].x;
+    one.x0.outside = {};  // no model predicts gusts: they count in the floor
     RowMatrix P = ends[w].P;
-    const double h = options.horizon / 2;
-    const StateLayout& layout = record.layout;
-    for (int i = 0; i < 3; ++i) {
-      P(layout.w + i, layout.w + i) += noise.q_w * h;
-      if (layout.attitude >= 0) P(layout.attitude + i, layout.attitude + i) += noise.q_w * h * h * h / 3;
-      if (layout.v >= 0) P(layout.v + i, layout.v + i) += noise.q_v * h;
-      if (layout.x >= 0) P(layout.x + i, layout.x + i) += noise.q_v * h * h * h / 3;
-    }
-    for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n)
-      P(layout.motors + n, layout.motors + n) += noise.q_motor * h;
-    ChunkTask task;
-    task.vehicle = record.vehicle, task.inputs = &arc.inputs, task.layout = layout;
-    task.p = p;
-    task.gyro_bias = theta.gyro_bias(u, arc.log);
-    task.active = theta.active();
-    task.begin = starts[w].row, task.end = std::min(last, arc.rows() - 1), task.rows = arc.rows();
-    task.t = arc.t.data(), task.y = arc.y.data(), task.q = arc.q.data(), task.weight = weight.data();
-    task.huber = 1e6;  // errors of a wrong model count in full
-    task.x0 = ends[w].x;
-    task.covariance = P.data();
-    evaluate_chunk(task, result);
+    expect_outside(P, task.layout.w_dot, noise.w_dot, horizon);
+    expect_outside(P, task.layout.v_dot, noise.v_dot, horizon);
+    for (int n = 0; n < task.layout.rotors && task.layout.motors >= 0; ++n)
+      P(task.layout.motors + n, task.layout.motors + n) += noise.q_motor * horizon / 2;
+    one.covariance = P.data();
+    ChunkResult result;
     PredictionWindow window;
+    if (one.end >= arc.rows()) return window;  // ends before the window does
+    evaluate_chunk(one, result);
     window.log = arc.log, window.t = arc.t[starts[w].row];
     window.square = result.square, window.count = result.count;
     for (std::size_t c = 0; c < kChannels; ++c) window.floor[c] = result.count[c] + result.leverage[c];
-    if (std::isfinite(window.error2())) windows.push_back(window);
+    return window;
+  };
+  for (std::size_t h = 0; h < options.horizons.size(); ++h) {
+    std::vector<PredictionWindow> windows(starts.size());
+    smoother.in_parallel(starts.size(), [&](std::size_t w) { windows[w] = predict(w, options.horizons[h]); });
+    std::erase_if(windows, [](const PredictionWindow& w) { return !std::isfinite(w.error2()); });
+    all[h] = std::move(windows);
   }
-  return windows;
+  return all;
 }
 
 PredictionSummary summarise(const std::vector<PredictionWindow>& windows) {

@@ -18,17 +18,17 @@ struct PredictionWindow {
 };
 
 struct PredictionOptions {
-  double horizon = 0.5;  ///< s
+  std::vector<double> horizons{0.1, 0.5, 1.0};  ///< s
   double history = 0.8;  ///< s of data from which the state at the window's start is estimated
   double spacing = 1.0;  ///< s between window starts
   int threads = 0;
 };
 
 /// Predicts windows of the record with the constants `theta` at `u`, under noise `noise` (whose process noise
-/// also counts in the floor: no model predicts gusts).
-std::vector<PredictionWindow> predict_windows(const FlightRecord& record, const Theta& theta,
-                                              const Eigen::VectorXd& u, const NoiseModel& noise,
-                                              const PredictionOptions& options);
+/// also counts in the floor: no model predicts gusts). One list for each horizon.
+std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& record, const Theta& theta,
+                                                           const Eigen::VectorXd& u, const NoiseModel& noise,
+                                                           const PredictionOptions& options);
 
 /// Root of the mean of error2 and floor2 over windows, and a 95 % interval of the first by bootstrap over
 /// windows.

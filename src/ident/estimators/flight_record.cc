@@ -47,6 +47,8 @@ StateLayout layout_of(const Signals& s, int rotors, bool whole) {
   if (s.velocity || s.position) layout.v = take(3);
   if (s.position) layout.x = take(3);
   if (s.commands) layout.motors = take(2 * rotors);
+  layout.w_dot = take(3);
+  if (s.force || layout.v >= 0) layout.v_dot = take(3);
   layout.size = next;
   return layout;
 }

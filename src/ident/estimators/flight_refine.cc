@@ -52,11 +52,12 @@ Table validation_table(const FlightRecord& held_out, const Theta& theta, const V
               {"horizon s", "parameters before", "refined", "floor", "windows"},
               {}};
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const double horizon : {0.1, 0.5, 1.0}) {
-    PredictionOptions options;
-    options.horizon = horizon;
-    const PredictionSummary a = summarise(predict_windows(held_out, theta, before, fit.noise, options));
-    const PredictionSummary b = summarise(predict_windows(held_out, theta, fit.u, fit.noise, options));
+  const PredictionOptions options;
+  const auto stated = predict_windows(held_out, theta, before, fit.noise, options);
+  const auto refined = predict_windows(held_out, theta, fit.u, fit.noise, options);
+  for (std::size_t h = 0; h < options.horizons.size(); ++h) {
+    const double horizon = options.horizons[h];
+    const PredictionSummary a = summarise(stated[h]), b = summarise(refined[h]);
     if (b.windows == 0) continue;
     table.rows.push_back({format_number(horizon), format_number(a.error, 3), format_number(b.error, 3),
                           format_number(b.floor, 3), std::to_string(b.windows)});
@@ -215,7 +216,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   result.fit["seconds"] = record.duration;
   result.fit["steps"] = fit.steps;
   result.fit["segment_seconds"] = fit.chunk_seconds;
-  result.fit["process_noise"] = {{"angular", std::sqrt(fit.noise.q_w)}, {"linear", std::sqrt(fit.noise.q_v)}};
+  result.fit["process_noise"] = {
+      {"angular_acceleration", {{"std", fit.noise.w_dot.sigma}, {"correlation_time", fit.noise.w_dot.tau}}},
+      {"acceleration", {{"std", fit.noise.v_dot.sigma}, {"correlation_time", fit.noise.v_dot.tau}}}};
   nlohmann::ordered_json levels;
   for (int c = 0; c < kChannels; ++c)
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
@@ -233,15 +236,12 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   result.sections.push_back(data_health(record, logs, fit.noise));
   if (options.validate && record.duration > 6) {
     const RecordSplit split = split_record(record, 0.7);
-    FlightFitOptions again = fit_options;
-    again.progress = nullptr;
-    again.noise = fit.noise;
-    again.chunk_seconds = fit.chunk_seconds;
-    again.estimate_noise = false;
-    const FlightFit training = fit_flight(split.training, theta, again);
-    FlightFit view = training;
-    view.noise = fit.noise;
-    VectorXd before = training.u;
+    FlightFit view = fit;
+    view.u = fit_of_blocks(fit, theta, [&](const ScoreBlock& block) {
+      const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
+      return block.to <= arc.t.front() + 0.7 * (arc.t.back() - arc.t.front());
+    });
+    VectorXd before = view.u;
     before.head(n).setZero();  // the constants as stated, with the gyro biases of the fit
     Section section;
     section.title = "Held-out prediction";

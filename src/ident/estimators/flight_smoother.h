@@ -3,27 +3,21 @@
 //
 //   cost = sum_chunks rho(r_k(x_k, theta)^2) + sum_links d_k' W_k d_k ,   d_k = end(x_k, theta) - x_(k+1)
 //
-// W_k is the inverse covariance of a process noise: white angular and linear acceleration of spectral density
-// q_w, q_v acting over the chunk. Zero noise makes one long output-error fit, infinite noise unlinked
-// segments. The states are a block tridiagonal system with a border of shared unknowns; elimination costs
-// O(length).
+// The state holds accelerations from outside that are constant over a chunk and follow a Gauss-Markov process
+// from one to the next; all else continues without a jump. No such noise makes one long output-error fit,
+// infinite noise unlinked segments. The states are a block tridiagonal system with a border of shared
+// unknowns; elimination costs O(length).
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
+#include "ident/estimators/flight_noise.h"
 #include "ident/estimators/flight_record.h"
 #include "ident/estimators/flight_theta.h"
 
 namespace ident {
-
-/// Spectral densities of the process noise, and the white noise of every channel.
-struct NoiseModel {
-  std::array<double, kChannels> sigma{};
-  double q_w = 0.0;      ///< (rad/s^2)^2 s
-  double q_v = 0.0;      ///< (m/s^2)^2 s
-  double q_motor = 0.0;  ///< (rad/s)^2/s on rotor speeds
-};
 
 /// Where a chunk lies.
 struct ChunkPlace {
@@ -39,10 +33,17 @@ struct ReducedSystem {
   Eigen::MatrixXd S;
 };
 
+/// Per channel: squared weighted residuals, what the states took from them, and samples.
 struct Moments {
   std::array<double, kChannels> square{}, leverage{}, count{};
-  // Process noise: squared whitened defects, their posterior variance and number, for w, v and motors.
-  std::array<double, 3> defect_square{}, defect_variance{}, defect_count{};
+};
+
+/// Gradient and information of a stretch of flight: they add up to those of the reduced system.
+struct ScoreBlock {
+  int arc = 0;
+  double from = 0.0, to = 0.0;  ///< s
+  Eigen::VectorXd score;
+  Eigen::MatrixXd information;
 };
 
 class FlightSmoother {
@@ -57,7 +58,12 @@ class FlightSmoother {
   double chunk_seconds() const { return chunk_seconds_; }
 
   /// Linearises at u and the states predicted for it, and eliminates the states. Priors are not in it.
-  const ReducedSystem& linearize(const Eigen::VectorXd& u);
+  /// With `leverage` moments() can be asked for afterwards.
+  const ReducedSystem& linearize(const Eigen::VectorXd& u, bool leverage = false);
+  /// Eliminates the last linearisation once more, after a change of the process noise.
+  const ReducedSystem& relinearize();
+  /// Whether the last linearisation is at u, and of the present sensor noise.
+  bool stands_at(const Eigen::VectorXd& u) const { return stands_ && u == trial_u_; }
   /// Makes the last linearisation the one from which states are predicted from now on.
   void accept();
   /// Moves the states to their best for u (`rounds` Gauss-Newton steps) and accepts.
@@ -73,12 +79,19 @@ class FlightSmoother {
   /// Residuals beyond this many standard deviations count linearly.
   void set_huber(double huber) { huber_ = huber; }
 
-  /// Residual moments for re-estimating the noise, at the accepted states.
-  Moments moments();
+  /// Residual moments of the last linearisation, which was asked for leverages.
+  Moments moments() const;
+  /// Process noise that makes the last linearisation most likely (expectation maximisation, `rounds` steps);
+  /// gives the largest relative change of a standard deviation.
+  double retune(int rounds);
+  /// Calls `work` for 0 to count - 1 on all threads.
+  void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const;
+  /// Cuts all links: every chunk starts afresh.
+  void unlink();
 
-  /// Projected scores, one column per block of about `seconds`: their sum is the gradient; for the sandwich.
-  /// With `information` also the information of each block, which adds up to S.
-  Eigen::MatrixXd block_scores(double seconds, std::vector<Eigen::MatrixXd>* information = nullptr);
+  /// What blocks of about `seconds` say of the shared unknowns, states projected out, at the accepted
+  /// linearisation.
+  std::vector<ScoreBlock> score_blocks(double seconds) const;
 
   /// State at the last row of each arc, from all data before it, with its covariance.
   struct End {
@@ -94,15 +107,35 @@ class FlightSmoother {
   std::vector<Eigen::VectorXd> defects() const;
 
  private:
+  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1).
+  struct Elimination {
+    std::vector<Eigen::MatrixXd> G, B, D_inverse, P, cross;
+    std::vector<Eigen::VectorXd> f;
+  };
+
+  // What a chunk passes to the next one.
+  struct Carry {
+    Eigen::MatrixXd D, B;
+    Eigen::VectorXd g;
+    bool on = false;
+  };
+
   ChunkTask task(std::size_t k, const Eigen::VectorXd& u, const std::vector<double>& p,
                  const std::vector<std::vector<Seed>>& seeds) const;
   void predict(const Eigen::VectorXd& u);
   void evaluate(const Eigen::VectorXd& u, bool jacobian, bool leverage);
   void eliminate();
   Eigen::VectorXd defect(std::size_t k) const;
-  Eigen::MatrixXd link_weight(std::size_t k) const;
+  Eigen::VectorXd link_weight(std::size_t k) const;
+  Eigen::VectorXd carried(std::size_t k) const;
+  Eigen::VectorXd start_information() const;
+  Eigen::VectorXd outside(std::size_t k) const;
+  void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum);
+  void add_link(std::size_t k, Eigen::MatrixXd& D, Eigen::MatrixXd& B, Eigen::VectorXd& f, Eigen::MatrixXd& U,
+                Carry& carry, ReducedSystem& sum) const;
+  std::vector<Eigen::VectorXd> optimum() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
-  void posterior_covariances();
+  void posterior_covariances(Elimination& el) const;
 
   const FlightRecord* record_;
   const Theta* theta_;
@@ -110,17 +143,13 @@ class FlightSmoother {
   double chunk_seconds_;
   int threads_;
   double shift_ = 0.0, huber_ = 4.0;
+  bool stands_ = false;
   std::vector<ChunkPlace> places_;
+  std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
   std::vector<ChunkResult> results_;
   Eigen::VectorXd u_, trial_u_;  // of the accepted and of the last linearisation
-  // Of the accepted linearisation: x_k moves by -(f_k + B_k du) - G_k dx_(k+1).
-  struct Elimination {
-    std::vector<Eigen::MatrixXd> G, B, P, cross;
-    std::vector<Eigen::VectorXd> f;
-  };
   Elimination accepted_, trial_elimination_;
-  std::vector<Eigen::MatrixXd> D_inverse_;
   ReducedSystem reduced_;
 };
 

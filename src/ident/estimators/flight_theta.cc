@@ -9,6 +9,15 @@
 #include "ident/core/error.h"
 
 namespace ident {
+namespace {
+
+EffectMask effect_of(int slot) {
+  for (const EffectEntry& e : catalogue())
+    if (slot >= e.offset && slot < e.offset + static_cast<int>(e.parameters.size())) return mask_of(e.id);
+  return 0;
+}
+
+}  // namespace
 
 Theta::Theta(std::vector<double> p, std::vector<FreeConstant> constants, int logs, bool gyro,
              double gyro_bias_std)
@@ -17,13 +26,7 @@ Theta::Theta(std::vector<double> p, std::vector<FreeConstant> constants, int log
       logs_(logs),
       gyro_(gyro),
       gyro_bias_std_(gyro_bias_std) {
-  active_ = active_effects(p_);
-  for (const FreeConstant& c : constants_) {
-    p_[static_cast<std::size_t>(c.index)] = c.start;
-    for (const EffectEntry& e : catalogue())
-      if (c.index >= e.offset && c.index < e.offset + static_cast<int>(e.parameters.size()))
-        active_ |= mask_of(e.id);
-  }
+  for (const FreeConstant& c : constants_) p_[static_cast<std::size_t>(c.index)] = c.start;
 }
 
 std::string Theta::name(int i) const {
@@ -60,10 +63,12 @@ std::array<double, 3> Theta::gyro_bias(const Eigen::VectorXd& u, int log) const 
 
 std::vector<Seed> Theta::seeds(const Eigen::VectorXd& u, int log) const {
   std::vector<Seed> seeds;
-  for (int i = 0; i < constants_count(); ++i)
-    seeds.push_back({constants_[static_cast<std::size_t>(i)].index, i, slope(u, i)});
+  for (int i = 0; i < constants_count(); ++i) {
+    const int slot = constants_[static_cast<std::size_t>(i)].index;
+    seeds.push_back({slot, i, slope(u, i), effect_of(slot)});
+  }
   for (int k = 0; k < 3 && gyro_; ++k)
-    seeds.push_back({kParameterCount + k, constants_count() + 3 * log + k, gyro_bias_std_});
+    seeds.push_back({kParameterCount + k, constants_count() + 3 * log + k, gyro_bias_std_, 0});
   return seeds;
 }
 

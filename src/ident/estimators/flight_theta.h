@@ -47,7 +47,6 @@ class Theta {
   std::array<double, 3> gyro_bias(const Eigen::VectorXd& u, int log) const;
   std::vector<Seed> seeds(const Eigen::VectorXd& u, int log) const;
   PriorTerms prior(const Eigen::VectorXd& u) const;
-  EffectMask active() const { return active_; }
 
  private:
   std::vector<double> p_;
@@ -55,7 +54,6 @@ class Theta {
   int logs_;
   bool gyro_;
   double gyro_bias_std_;
-  EffectMask active_ = 0;
 };
 
 /// The constants of a vehicle that a refinement frees: those with a standard deviation or without a value

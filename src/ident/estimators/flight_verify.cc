@@ -38,9 +38,10 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   // States at the start of every window, from the log itself; the constants stay as stated.
   const NoiseModel noise = initial_noise(record);
   FlightSmoother smoother(record, theta, noise, horizon);
-  NoiseModel loose = noise;
-  loose.q_w *= 1e6, loose.q_v *= 1e6, loose.q_motor = record.signals.rotor_speeds ? 1e6 : 0.0;
-  smoother.set_noise(loose);
+  NoiseModel calm = noise;
+  calm.w_dot.sigma = calm.v_dot.sigma = 0.0;
+  smoother.set_noise(calm);
+  smoother.unlink();
   smoother.settle(Eigen::VectorXd::Zero(theta.size()), 4);
   const auto residuals = smoother.residuals();
   std::array<Sums, kChannels> sums;

@@ -205,9 +205,12 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const SearchResult search = search_causes(record, vehicle, p, search_options);
   if (options.progress) options.progress(0.9, "held-out flight");
 
-  const ResidualWrench before = residual_wrench(record, *search.base.theta, search.base.fit);
+  const ResidualWrench before =
+      residual_wrench(record, *search.base.theta, search.base.fit, search.best.fit.noise);
   const ResidualWrench after =
-      search.best.adopted.empty() ? before : residual_wrench(record, *search.best.theta, search.best.fit);
+      search.best.adopted.empty()
+          ? before
+          : residual_wrench(record, *search.best.theta, search.best.fit, search.best.fit.noise);
   const Eigen::VectorXd rival_before = generic_rival(before),
                         rival_after = search.best.adopted.empty() ? rival_before : generic_rival(after);
 
@@ -215,24 +218,22 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const RecordSplit split = split_record(record, 0.7);
   Json horizons = Json::array();
   GapClosed gap;
-  FittedModel base = search.base, best = search.best;
-  base.fit.noise = best.fit.noise;
-  base.fit.chunk_seconds = best.fit.chunk_seconds;
-  const FittedModel base_training = refitted(base, split.training, search.base.theta->p(search.base.fit.u));
-  const FittedModel best_training =
-      best.adopted.empty() ? base_training
-                           : refitted(best, split.training, search.best.theta->p(search.best.fit.u));
-  for (const double horizon : {0.1, 0.5, 1.0}) {
-    PredictionOptions windows;
-    windows.horizon = horizon;
-    // "Before" is the model as it was given: bench values, with the biases of the fit.
-    Eigen::VectorXd stated = base_training.fit.u;
-    const Theta given(p, base_training.constants, record.logs, record.signals.rates);
-    stated.head(given.constants_count()).setZero();
-    const auto a = predict_windows(split.held_out, given, stated, best.fit.noise, windows);
-    const auto b =
-        predict_windows(split.held_out, *best_training.theta, best_training.fit.u, best.fit.noise, windows);
-    const GapClosed one = gap_closed(a, b);
+  const auto training = [&](const ScoreBlock& block) {
+    const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
+    return block.to <= arc.t.front() + 0.7 * (arc.t.back() - arc.t.front());
+  };
+  const Theta& best = *search.best.theta;
+  const Eigen::VectorXd u_best = fit_of_blocks(search.best.fit, best, training);
+  const PredictionOptions windows;
+  // "Before" is the model as it was given: bench values, with the biases of the fit.
+  Eigen::VectorXd stated = search.base.fit.u;
+  stated.head(search.base.theta->constants_count()).setZero();
+  const NoiseModel& noise = search.best.fit.noise;
+  const auto a = predict_windows(split.held_out, *search.base.theta, stated, noise, windows);
+  const auto b = predict_windows(split.held_out, best, u_best, noise, windows);
+  for (std::size_t h = 0; h < windows.horizons.size(); ++h) {
+    const double horizon = windows.horizons[h];
+    const GapClosed one = gap_closed(a[h], b[h]);
     if (horizon == 0.5) gap = one;
     horizons.push_back({{"horizon", horizon},
                         {"before", number(one.before)},

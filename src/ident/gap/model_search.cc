@@ -61,15 +61,6 @@ double SearchResult::probability_of(const std::string& name) const {
   return std::min(sum, 1.0);
 }
 
-FittedModel refitted(const FittedModel& model, const FlightRecord& record, const std::vector<double>& p) {
-  FlightFitOptions options;
-  options.noise = model.fit.noise;
-  options.chunk_seconds = model.fit.chunk_seconds;
-  options.estimate_noise = false;
-  options.tolerance = 1e-5;
-  return fitted(model.constants, model.adopted, record, p, options);
-}
-
 SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
                            const SearchOptions& options) {
   SearchResult out;
@@ -77,8 +68,8 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     if (options.progress) options.progress(share, what);
   };
   FlightFitOptions fit;
-  fit.tolerance = 1e-5;
-  fit.noise_rounds = 5;
+  fit.tolerance = 1e-4;
+  fit.noise_rounds = 4;
   tell(0.0, "the model as it is");
   std::vector<FreeConstant> base = free_constants(vehicle, p);
   if (!record.signals.commands)

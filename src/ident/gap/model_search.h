@@ -50,9 +50,6 @@ struct SearchOptions {
 SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
                            const SearchOptions& options);
 
-/// The same model fitted to another record, noise given.
-FittedModel refitted(const FittedModel& model, const FlightRecord& record, const std::vector<double>& p);
-
 /// A cause with the direction of its rotor: "rotor_mismatch" and "rotor 2".
 std::string described(const Candidate& candidate);
 

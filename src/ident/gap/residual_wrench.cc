@@ -29,7 +29,8 @@ VectorXd ResidualWrench::excess() const {
   return (rms().cwiseQuotient(noise).cwiseAbs2().array() - 1).max(0.0);
 }
 
-ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit) {
+ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
+                               const NoiseModel& floor) {
   ResidualWrench out;
   FlightSmoother& smoother = *fit.smoother;
   const std::vector<double> p = theta.p(fit.u);
@@ -38,8 +39,7 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
   const auto residuals = smoother.residuals();
   const std::vector<Eigen::VectorXd> defects = smoother.defects();
   const std::vector<FlightState<double>>& states = smoother.states();
-  const bool force = record.signals.force, motion = layout.v >= 0,
-             rotors = layout.motors >= 0 && record.signals.rotor_speeds;
+  const bool motion = layout.v >= 0, rotors = layout.motors >= 0 && record.signals.rotor_speeds;
   const Index n = static_cast<Index>(places.size()), N = layout.rotors;
   const Index channels = 6 + (rotors ? N : 0);
   out.names = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
@@ -60,30 +60,24 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
     const Mat3<double> R = rotation(x.body.q_WB);
     out.t.push_back(arc.t[place.begin] + h / 2);
     out.log.push_back(arc.log);
-    std::array<double, 3> sum{}, count{};
-    for (std::size_t i = 0; i < place.end - place.begin; ++i)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double r = residuals[at][i * kChannels + kForce + c];
-        if (std::isfinite(r)) sum[c] -= r * fit.noise.sigma[kForce + c], count[c] += 1;
-      }
-    Eigen::Vector3d dv = Eigen::Vector3d::Zero();
-    if (motion && defects[at].size() > 0) dv = -(R.transpose() * defects[at].segment<3>(layout.v)) / h;
+    // What the smoother took for accelerations from outside, and what the accelerometer shows beyond it.
+    const Eigen::Vector3d push_B = R.transpose() * x.outside.v_dot_W;
     for (int c = 0; c < 3; ++c) {
       const auto cc = static_cast<std::size_t>(c);
-      const bool direct = force && count[cc] > 0;
-      out.residual(k, c) = m * (direct ? sum[cc] / count[cc] : dv[c]);
-      variance[c] += m * m *
-                     (direct ? fit.noise.sigma[kForce + cc] * fit.noise.sigma[kForce + cc] / count[cc]
-                             : fit.noise.q_v / h);
-      if (defects[at].size() > 0) out.residual(k, 3 + c) = -J[cc] * defects[at][layout.w + c] / h;
-      // What noise in the rates at both ends of a chunk makes of an acceleration.
-      const double s = fit.noise.sigma[kGyro + cc];
-      variance[3 + c] += J[cc] * J[cc] * 2 * s * s / (static_cast<double>(place.end - place.begin) * h * h);
+      double sum = 0, count = 0;
+      for (std::size_t i = 0; i < place.end - place.begin; ++i) {
+        const double r = residuals[at][i * kChannels + kForce + cc];
+        if (std::isfinite(r)) sum -= r * fit.noise.sigma[kForce + cc], count += 1;
+      }
+      out.residual(k, c) = m * (push_B[c] + (count > 0 ? sum / count : 0.0));
+      const double white = count > 0 ? floor.sigma[kForce + cc] : 0.0;
+      variance[c] += m * m * (floor.v_dot.sigma * floor.v_dot.sigma + white * white / std::max(count, 1.0));
+      out.residual(k, 3 + c) = J[cc] * x.outside.w_dot_B[c];
+      variance[3 + c] += J[cc] * J[cc] * floor.w_dot.sigma * floor.w_dot.sigma;
     }
     for (Index c = 0; rotors && c < N; ++c) {
-      if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c] / h;
-      const double s = fit.noise.sigma[static_cast<std::size_t>(kRotorChannel + c)];
-      variance[6 + c] += 2 * s * s / (static_cast<double>(place.end - place.begin) * h * h);
+      if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c];
+      variance[6 + c] += floor.q_motor * h;
     }
     const Eigen::Vector3d v_B = R.transpose() * x.body.v_W, w = x.body.w_B;
     double total = 0;

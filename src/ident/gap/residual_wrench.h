@@ -27,7 +27,8 @@ struct ResidualWrench {
   Eigen::VectorXd excess() const;
 };
 
-ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
+ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
+                               const NoiseModel& floor);
 
 /// Share of each channel's variance that a ridge regression on the features predicts in blocks left out, at
 /// least 0.

@@ -67,9 +67,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   VectorXd u = VectorXd::Zero(theta.size());
   const int biases = theta.size() - theta.constants_count();
   u.tail(biases) = fit.u.tail(biases);
-  smoother.linearize(u);
-  smoother.accept();
-  const ReducedSystem system = smoother.linearize(u);
+  const ReducedSystem system = smoother.linearize(u);  // the states are at their best already
   smoother.accept();
   form.cost0 = system.cost;
   form.g = system.g;
@@ -87,7 +85,12 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   }
   // Variance of the scores over blocks, each projected on the base, over what white residuals would give.
   std::vector<MatrixXd> information;
-  const MatrixXd scores = smoother.block_scores(2.0, &information);
+  const std::vector<ScoreBlock> blocks = smoother.score_blocks(2.0);
+  MatrixXd scores(theta.size(), static_cast<Eigen::Index>(blocks.size()));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    scores.col(static_cast<Eigen::Index>(b)) = blocks[b].score;
+    information.push_back(blocks[b].information);
+  }
   if (scores.cols() < 8) return form;
   const std::vector<int> base = base_unknowns(form, problem);
   const auto m = static_cast<Eigen::Index>(base.size());

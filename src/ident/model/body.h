@@ -29,6 +29,13 @@ struct BodyState {
   Vec3<S> w_B, v_W, x_W;
 };
 
+/// Accelerations that nothing in the model explains, gusts mostly: constant over a piece of flight. They add
+/// to (5) and (6), so that an accelerometer feels them.
+template <class S>
+struct Disturbance {
+  Vec3<S> w_dot_B{S(0.0), S(0.0), S(0.0)}, v_dot_W{S(0.0), S(0.0), S(0.0)};
+};
+
 /// Time derivative of a BodyState, and the specific force at the origin.
 template <class S>
 struct BodyRate {
@@ -179,17 +186,20 @@ class Body {
     return total;
   }
 
-  /// Equations (5) to (7).
-  BodyRate<S> rate(const BodyState<S>& state, std::span<const MotorState<S>> motors) const {
+  /// Equations (5) to (7), with accelerations from outside if there are any.
+  BodyRate<S> rate(const BodyState<S>& state, std::span<const MotorState<S>> motors,
+                   const Disturbance<S>* outside = nullptr) const {
     const Mat3<S> R_WB = rotation(state.q_WB);
     const Wrench<S> total = wrench(state, R_WB, motors);
     const Vec3<S>& w = state.w_B;
     BodyRate<S> out;
     Vec3<S> M = total.M_B - cross(w, times(J_, w));
     if (off_centre_) M -= cross(c_B_, total.F_B);
-    out.w_dot_B = times(J_inverse_, M);                                  // (5)
+    out.w_dot_B = times(J_inverse_, M);  // (5)
+    if (outside) out.w_dot_B += outside->w_dot_B;
     for (int i = 0; i < 3; ++i) out.f_B[i] = total.F_B[i] * m_inverse_;  // (6)
     if (off_centre_) out.f_B -= cross(out.w_dot_B, c_B_) + cross(w, cross(w, c_B_));
+    if (outside) out.f_B += turned_into_body(R_WB, outside->v_dot_W);
     for (int i = 0; i < 3; ++i)
       out.v_dot_W[i] = R_WB(i, 0) * out.f_B[0] + R_WB(i, 1) * out.f_B[1] + R_WB(i, 2) * out.f_B[2];
     out.v_dot_W[2] = out.v_dot_W[2] + vehicle_->g;

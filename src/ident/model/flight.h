@@ -27,6 +27,7 @@ template <class S>
 struct FlightState {
   BodyState<S> body;
   std::array<MotorState<S>, kMaxRotors> motors;
+  Disturbance<S> outside;
 };
 
 /// The vehicle with one set of constants, able to make steps.
@@ -50,23 +51,32 @@ class Flight {
   }
 
   const Body<S, Effects>& body() const { return body_; }
+
+  /// Whether `outside` of a state acts; off at first.
+  void feel_outside(bool on) { outside_ = on; }
   const S& sensor_delay() const { return delays_.sensor_delay; }
 
-  /// State h seconds later; `rate` at the start of the step is returned through `at_start` when asked for.
-  FlightState<S> step(const FlightState<S>& x, double t, double h, const BodyRate<S>& at_start) {
-    FlightState<S> next;
+  /// Moves a state h seconds on; `at_start` is its rate.
+  void step_in_place(FlightState<S>& x, double t, double h, const BodyRate<S>& at_start) {
     std::array<MotorState<S>, kMaxRotors> middle;
     advance_motors(x.motors, t, h / 2, middle);
-    advance_motors(middle, t + h / 2, h / 2, next.motors);
-    const std::span<const MotorState<S>> mid(middle.data(), rotors_), end(next.motors.data(), rotors_);
+    advance_motors(middle, t + h / 2, h / 2, x.motors);
+    const std::span<const MotorState<S>> mid(middle.data(), rotors_), end(x.motors.data(), rotors_);
     const BodyRate<S>& k1 = at_start;
-    const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid);
-    const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid);
-    const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end);
-    next.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
-    next.body.w_B = combined(x.body.w_B, h, k1.w_dot_B, k2.w_dot_B, k3.w_dot_B, k4.w_dot_B);
-    next.body.v_W = combined(x.body.v_W, h, k1.v_dot_W, k2.v_dot_W, k3.v_dot_W, k4.v_dot_W);
-    next.body.x_W = combined(x.body.x_W, h, k1.x_dot_W, k2.x_dot_W, k3.x_dot_W, k4.x_dot_W);
+    const Disturbance<S>* outside = outside_ ? &x.outside : nullptr;
+    const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
+    const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid, outside);
+    const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end, outside);
+    x.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
+    x.body.w_B = combined(x.body.w_B, h, k1.w_dot_B, k2.w_dot_B, k3.w_dot_B, k4.w_dot_B);
+    x.body.v_W = combined(x.body.v_W, h, k1.v_dot_W, k2.v_dot_W, k3.v_dot_W, k4.v_dot_W);
+    x.body.x_W = combined(x.body.x_W, h, k1.x_dot_W, k2.x_dot_W, k3.x_dot_W, k4.x_dot_W);
+  }
+
+  /// The state h seconds on; `at_start` is the rate of `x`.
+  FlightState<S> step(const FlightState<S>& x, double t, double h, const BodyRate<S>& at_start) {
+    FlightState<S> next = x;
+    step_in_place(next, t, h, at_start);
     return next;
   }
 
@@ -74,7 +84,8 @@ class Flight {
   /// first.
   BodyRate<S> rate(FlightState<S>& x, double t) const {
     if (!inputs_->commanded()) measured_motors(t, x.motors);
-    return body_.rate(x.body, std::span<const MotorState<S>>(x.motors.data(), rotors_));
+    return body_.rate(x.body, std::span<const MotorState<S>>(x.motors.data(), rotors_),
+                      outside_ ? &x.outside : nullptr);
   }
 
   /// Steady motor speeds for the command that holds at t: a start when nothing else is known.
@@ -167,7 +178,7 @@ class Flight {
   std::size_t rotors_;
   TimeSeam<S> delays_;
   S down_ratio_;
-  bool asymmetric_ = false, gain_ = false, constant_delay_ = false;
+  bool asymmetric_ = false, gain_ = false, outside_ = false, constant_delay_ = false;
   double h_ = -1.0;
   MotorTransition<S> up_, down_;
 };

@@ -1,0 +1,141 @@
+// A chunk of flight simulated on any scalar, its predictions handed out row by row.
+#pragma once
+
+#include "ident/core/dual.h"
+#include "ident/estimators/flight_kernel.h"
+
+namespace ident {
+
+/// Simulates a chunk on scalar S and hands every predicted measurement to `sink(row, channel, residual)`.
+template <class Isa, class S>
+class ChunkRun {
+ public:
+  using Effects = EffectSet<S>;
+
+  ChunkRun(const ChunkTask& task, std::span<const S> p, EffectMask effects, const S* bias)
+      : task_(task), effects_(p, effects), flight_(*task.vehicle, p, effects_, *task.inputs), bias_(bias) {
+    flight_.feel_outside(task.layout.w_dot >= 0);
+  }
+
+  /// Attitude at the row that was handed to the sink last (specific force, velocity, position).
+  const Vec4<S>& attitude() const { return now_->body.q_WB; }
+
+  template <class Sink>
+  FlightState<S> operator()(FlightState<S> x, Sink&& sink) {
+    now_ = &x;
+    const double* t = task_.t;
+    delay_beyond_ = flight_.sensor_delay() - task_.shift;
+    delayed_ = !is_identically_zero(delay_beyond_);
+    const std::size_t last = task_.end;
+    BodyRate<S> rate = flight_.rate(x, t[task_.begin]);
+    std::size_t delayed_row = first_delayed_row();
+    for (std::size_t i = task_.begin; i < last; ++i) {
+      prompt_channels(i, x, rate, sink);
+      if (task_.shift == 0) delayed_channels(i, x.body.w_B, rate.w_dot_B, x.body.q_WB, sink, x, rate);
+      const int parts = 1 + static_cast<int>((t[i + 1] - t[i]) / task_.max_step);
+      const double h = (t[i + 1] - t[i]) / parts;
+      for (int part = 0; part < parts; ++part) {
+        const double from = t[i] + part * h;
+        if (task_.shift == 0) {
+          flight_.step_in_place(x, from, h, rate);
+          rate = flight_.rate(x, from + h);
+          continue;
+        }
+        const FlightState<S> before = x;
+        const BodyRate<S> rate_before = rate;
+        flight_.step_in_place(x, from, h, rate);
+        rate = flight_.rate(x, from + h);
+        const double to = part + 1 == parts ? t[i + 1] : from + h;
+        while (delayed_row < rows_end() && t[delayed_row] - task_.shift < to) {
+          interpolated_channels(delayed_row, (t[delayed_row] - task_.shift - from) / h, h, before,
+                                rate_before, x, rate, sink);
+          ++delayed_row;
+        }
+      }
+    }
+    return x;
+  }
+
+ private:
+  std::size_t rows_end() const { return task_.rows; }
+
+  std::size_t first_delayed_row() const {
+    std::size_t row = task_.begin;
+    if (task_.shift == 0) return row;
+    while (row < rows_end() && task_.t[row] - task_.shift < task_.t[task_.begin]) ++row;
+    return row;
+  }
+
+  bool sampled(std::size_t row, int channel) const {
+    const double y = task_.y[row * kChannels + static_cast<std::size_t>(channel)];
+    return y == y;
+  }
+  double y(std::size_t row, int channel) const {
+    return task_.y[row * kChannels + static_cast<std::size_t>(channel)];
+  }
+
+  template <class Sink>
+  void prompt_channels(std::size_t i, const FlightState<S>& x, const BodyRate<S>& rate, Sink& sink) {
+    if (sampled(i, kForce) || sampled(i, kForce + 2)) {
+      const SensorSeam<S> imu = flight_.imu(x.body, rate);
+      for (int k = 0; k < 3; ++k)
+        if (sampled(i, kForce + k)) sink(i, kForce + k, S(imu.f_B[k] - y(i, kForce + k)));
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (sampled(i, kVelocity + k)) sink(i, kVelocity + k, S(x.body.v_W[k] - y(i, kVelocity + k)));
+      if (sampled(i, kPosition + k)) sink(i, kPosition + k, S(x.body.x_W[k] - y(i, kPosition + k)));
+    }
+    if (task_.layout.motors < 0) return;
+    for (int n = 0; n < task_.layout.rotors; ++n)
+      if (sampled(i, kRotorChannel + n))
+        sink(i, kRotorChannel + n, S(x.motors[static_cast<std::size_t>(n)].Omega - y(i, kRotorChannel + n)));
+  }
+
+  // Rates and attitude, which a sensor delay shifts: first order about `shift`.
+  template <class Sink>
+  void delayed_channels(std::size_t row, const Vec3<S>& w, const Vec3<S>& w_dot, const Vec4<S>& q, Sink& sink,
+                        const FlightState<S>& x, const BodyRate<S>& rate) {
+    if (sampled(row, kGyro) || sampled(row, kGyro + 1) || sampled(row, kGyro + 2)) {
+      BodyState<S> then = x.body;
+      then.w_B = w;
+      if (delayed_) then.w_B -= delay_beyond_ * w_dot;
+      const SensorSeam<S> imu = flight_.imu(then, rate);
+      for (int k = 0; k < 3; ++k)
+        if (sampled(row, kGyro + k)) sink(row, kGyro + k, S(imu.gyro[k] + bias_[k] - y(row, kGyro + k)));
+    }
+    if (sampled(row, kAttitude) && task_.layout.attitude >= 0) {
+      const double* m = task_.q + 4 * row;
+      const Vec4<double> inverse(m[0], -m[1], -m[2], -m[3]);
+      Vec4<S> d = quaternion_product(inverse, q);
+      const double sign = value(d[0]) < 0 ? -2.0 : 2.0;
+      for (int k = 0; k < 3; ++k) {
+        S turn = sign * d[1 + k];
+        if (delayed_) turn = turn - delay_beyond_ * w[k];
+        sink(row, kAttitude + k, turn);
+      }
+    }
+  }
+
+  // Cubic Hermite interpolation of rates and attitude at the fraction `u` of a step of h seconds.
+  template <class Sink>
+  void interpolated_channels(std::size_t row, double u, double h, const FlightState<S>& a,
+                             const BodyRate<S>& ra, const FlightState<S>& b, const BodyRate<S>& rb,
+                             Sink& sink) {
+    const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h01 = u * u * (3 - 2 * u);
+    const double h10 = u * (1 - u) * (1 - u) * h, h11 = u * u * (u - 1) * h;
+    const Vec3<S> w = h00 * a.body.w_B + h01 * b.body.w_B + h10 * ra.w_dot_B + h11 * rb.w_dot_B;
+    const Vec3<S> w_dot = (1 - u) * ra.w_dot_B + u * rb.w_dot_B;
+    const Vec4<S> q = h00 * a.body.q_WB + h01 * b.body.q_WB + h10 * ra.q_dot + h11 * rb.q_dot;
+    delayed_channels(row, w, w_dot, q, sink, a, ra);
+  }
+
+  const ChunkTask& task_;
+  Effects effects_;
+  Flight<S, Effects> flight_;
+  const S* bias_;
+  const FlightState<S>* now_ = nullptr;
+  S delay_beyond_;
+  bool delayed_ = false;
+};
+
+}  // namespace ident

@@ -1,0 +1,29 @@
+// What a flight holds besides the model: white noise of the sensors, and accelerations from outside.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "ident/estimators/flight_kernel.h"
+
+namespace ident {
+
+/// A first-order Gauss-Markov process: what light turbulence does to a vehicle (Dryden's longitudinal form),
+/// white noise when tau is short.
+struct ColouredNoise {
+  double sigma = 0.0;  ///< standard deviation of a component
+  double tau = 1.0;    ///< correlation time, s
+
+  /// Share of the value that is left h seconds later.
+  double carried(double h) const { return std::exp(-h / tau); }
+};
+
+/// White noise of every channel, and the process noise.
+struct NoiseModel {
+  std::array<double, kChannels> sigma{};
+  ColouredNoise w_dot;   ///< angular acceleration in the body frame, rad/s^2
+  ColouredNoise v_dot;   ///< acceleration in the world frame, m/s^2
+  double q_motor = 0.0;  ///< spectral density on rotor speeds, (rad/s)^2/s
+};
+
+}  // namespace ident

@@ -1,0 +1,209 @@
+// Links between chunks, and the elimination of all states in time order.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/flight_chunk_maps.h"
+#include "ident/estimators/flight_smoother.h"
+
+namespace ident {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+double length(const FlightRecord& record, const ChunkPlace& place) {
+  const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+  return arc.t[place.end] - arc.t[place.begin];
+}
+
+// Far below what one chunk tells of an acceleration from outside: no noise means none.
+constexpr double kLeastOutside = 1e-10;
+
+double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma + kLeastOutside; }
+
+}  // namespace
+
+// Share of each state component that is left at the start of the next chunk.
+VectorXd FlightSmoother::carried(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  VectorXd share = VectorXd::Ones(layout.size);
+  const double h = length(*record_, places_[k]);
+  if (layout.w_dot >= 0) share.segment<3>(layout.w_dot).setConstant(noise_.w_dot.carried(h));
+  if (layout.v_dot >= 0) share.segment<3>(layout.v_dot).setConstant(noise_.v_dot.carried(h));
+  return share;
+}
+
+// Information on the state at the start of an arc, before any measurement.
+VectorXd FlightSmoother::start_information() const {
+  const StateLayout& layout = record_->layout;
+  VectorXd info = VectorXd::Zero(layout.size);
+  if (layout.w_dot >= 0) info.segment<3>(layout.w_dot).setConstant(1 / variance(noise_.w_dot));
+  if (layout.v_dot >= 0) info.segment<3>(layout.v_dot).setConstant(1 / variance(noise_.v_dot));
+  return info;
+}
+
+// The accelerations from outside within the local state of chunk k.
+VectorXd FlightSmoother::outside(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  VectorXd x = VectorXd::Zero(layout.size);
+  if (layout.w_dot >= 0) x.segment<3>(layout.w_dot) = trial_[k].outside.w_dot_B;
+  if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot_W;
+  return x;
+}
+
+// Inverse variance of the defect: what accelerations from outside win anew over a chunk, q h for rotor
+// speeds, and a floor far below what the measurements of one chunk can tell, so that all else continues.
+VectorXd FlightSmoother::link_weight(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  const double h = length(*record_, places_[k]),
+               rows = static_cast<double>(places_[k].end - places_[k].begin);
+  const auto floor = [&](int channel, double otherwise) {
+    const auto c = static_cast<std::size_t>(channel);
+    const double s = record_->sigma[c] < 1.0 ? noise_.sigma[c] : otherwise;
+    return 1e-5 * s * s / rows;
+  };
+  VectorXd W(layout.size);
+  const auto continues = [&](int at, int channel) {
+    for (int i = 0; i < 3 && at >= 0; ++i) W[at + i] = 1.0 / floor(channel + i, 0.01);
+  };
+  continues(layout.w, kGyro), continues(layout.attitude, kAttitude);
+  continues(layout.v, kVelocity), continues(layout.x, kPosition);
+  const auto wanders = [&](int at, const ColouredNoise& noise) {
+    const double share = noise.carried(h);
+    if (at >= 0)
+      W.segment<3>(at).setConstant(1.0 / (noise.sigma * noise.sigma * (1 - share * share) + kLeastOutside));
+  };
+  wanders(layout.w_dot, noise_.w_dot), wanders(layout.v_dot, noise_.v_dot);
+  const double omega_m = theta_->p(trial_u_)[param::omega_m];
+  for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
+    const double f = noise_.q_motor * h + floor(kRotorChannel + n, 1.0);
+    W[layout.motors + n] = 1.0 / f;
+    W[layout.motors + layout.rotors + n] = 1.0 / (f * omega_m * omega_m);
+  }
+  return W;
+}
+
+// Adds the link of chunk k to its own block, and what it means for the next one to `carry`.
+void FlightSmoother::add_link(std::size_t k, MatrixXd& D, MatrixXd& B, VectorXd& f, MatrixXd& U, Carry& carry,
+                              ReducedSystem& sum) const {
+  const Index n = record_->layout.size, m = theta_->size();
+  const MatrixXd E = carried(k).asDiagonal() * chunk::E(results_[k], record_->layout.size);
+  const VectorXd W = link_weight(k), d = defect(k), Wd = W.cwiseProduct(d);
+  const MatrixXd WE = W.asDiagonal() * E;
+  D.noalias() += E.leftCols(n).transpose() * WE.leftCols(n);
+  B.noalias() += E.leftCols(n).transpose() * WE.rightCols(m);
+  f.noalias() += E.leftCols(n).transpose() * Wd;
+  U = -WE.leftCols(n).transpose();
+  sum.S.noalias() += E.rightCols(m).transpose() * WE.rightCols(m);
+  sum.g.noalias() += E.rightCols(m).transpose() * Wd;
+  sum.cost += d.dot(Wd);
+  carry.D = W.asDiagonal();
+  carry.B = -WE.rightCols(m);
+  carry.g = -Wd;
+}
+
+void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum) {
+  const int n = record_->layout.size, m = theta_->size();
+  Elimination& el = trial_elimination_;
+  sum = {0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)};
+  const VectorXd at_start = start_information();
+  Carry carry;
+  MatrixXd U;
+  for (std::size_t k = begin; k < end; ++k) {
+    const ChunkResult& r = results_[k];
+    const chunk::ConstRowMap A = chunk::A(r);
+    MatrixXd D = A.topLeftCorner(n, n), B = A.topRightCorner(n, m);
+    VectorXd f = chunk::g(r).head(n);
+    sum.S += A.bottomRightCorner(m, m);
+    sum.g += chunk::g(r).tail(m);
+    sum.cost += r.cost;
+    if (carry.on) {
+      D += carry.D, B += carry.B, f += carry.g;
+    } else {
+      const VectorXd x = outside(k);
+      D.diagonal() += at_start;
+      f += at_start.cwiseProduct(x);
+      sum.cost += x.dot(at_start.cwiseProduct(x));
+    }
+    carry.on = places_[k].linked;
+    if (carry.on) add_link(k, D, B, f, U, carry, sum);
+    // Scaled, and with a trace of damping for states that nothing measures.
+    const VectorXd s = D.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    MatrixXd scaled = s.asDiagonal() * D * s.asDiagonal();
+    scaled.diagonal().array() += 1e-12;
+    const Eigen::LLT<MatrixXd> llt(scaled);
+    const Index c = carry.on ? n : 0;
+    MatrixXd right(n, c + m + 1);
+    if (carry.on) right.leftCols(n) = s.asDiagonal() * U;
+    right.middleCols(c, m) = s.asDiagonal() * B;
+    right.col(c + m) = s.cwiseProduct(f);
+    llt.solveInPlace(right);
+    const MatrixXd solved = s.asDiagonal() * right;
+    if (carry.on) el.G[k] = solved.leftCols(n);
+    el.B[k] = solved.middleCols(c, m);
+    el.f[k] = solved.col(c + m);
+    el.D_inverse[k] = s.asDiagonal() * llt.solve(MatrixXd(s.asDiagonal()));
+    sum.S.noalias() -= B.transpose() * el.B[k];
+    sum.g.noalias() -= B.transpose() * el.f[k];
+    sum.cost -= f.dot(el.f[k]);
+    if (!carry.on) continue;
+    carry.D.noalias() -= U.transpose() * el.G[k];
+    carry.B.noalias() -= U.transpose() * el.B[k];
+    carry.g.noalias() -= U.transpose() * el.f[k];
+  }
+}
+
+void FlightSmoother::eliminate() {
+  Elimination& el = trial_elimination_;
+  const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;
+  el.G.resize(K), el.B.resize(K), el.f.resize(K), el.D_inverse.resize(K);
+  std::vector<ReducedSystem> parts(arcs);
+  in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a]); });
+  reduced_ = {0.0, VectorXd::Zero(theta_->size()), MatrixXd::Zero(theta_->size(), theta_->size())};
+  for (const ReducedSystem& part : parts)
+    reduced_.cost += part.cost, reduced_.g += part.g, reduced_.S += part.S;
+  reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
+}
+
+// Backward recursion for the posterior covariance of each state and of neighbours, shared unknowns held.
+void FlightSmoother::posterior_covariances(Elimination& el) const {
+  const std::size_t K = places_.size();
+  el.P.resize(K);
+  el.cross.resize(K);
+  in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
+    for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
+      el.P[k] = el.D_inverse[k];
+      if (!places_[k].linked) continue;
+      el.cross[k].noalias() = -el.G[k] * el.P[k + 1];
+      el.P[k].noalias() -= el.cross[k] * el.G[k].transpose();
+    }
+  });
+}
+
+// Steps of all states to the optimum of the last linearisation, shared unknowns and their priors included.
+std::vector<VectorXd> FlightSmoother::optimum() const {
+  const PriorTerms prior = theta_->prior(trial_u_);
+  MatrixXd H = reduced_.S;
+  H.diagonal() += prior.slope.cwiseAbs2();
+  const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  const VectorXd g = reduced_.g + prior.slope.cwiseProduct(prior.residual);
+  const VectorXd du =
+      theta_->size() > 0
+          ? VectorXd(-(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(VectorXd(s.asDiagonal() * g))))
+          : VectorXd(0);
+  const Elimination& el = trial_elimination_;
+  std::vector<VectorXd> dx(places_.size());
+  for (std::size_t k = places_.size(); k-- > 0;) {
+    dx[k] = -(el.f[k] + el.B[k] * du);
+    if (places_[k].linked) dx[k] -= el.G[k] * dx[k + 1];
+  }
+  dx.push_back(du);
+  return dx;
+}
+
+}  // namespace ident

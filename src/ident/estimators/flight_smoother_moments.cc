@@ -1,0 +1,133 @@
+// What the last linearisation says about noise: moments of residuals, process noise, scores by block of time.
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/flight_chunk_maps.h"
+#include "ident/estimators/flight_smoother.h"
+
+namespace ident {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// Second moments of a Gauss-Markov process over all links: expectations given the data.
+struct ProcessMoments {
+  double now = 0, next = 0, cross = 0, seconds = 0, count = 0;
+
+  void add(double x, double y, double P_x, double P_y, double C, double h) {
+    now += x * x + P_x, next += y * y + P_y, cross += x * y + C;
+    seconds += h, count += 1;
+  }
+
+  /// The process of these moments, one step beyond the fixed-point step; relative change of sigma.
+  double update(ColouredNoise& noise) const {
+    if (count < 8 || noise.sigma <= 0) return 0;
+    const double h = seconds / count;
+    const double share = std::clamp(cross / std::max(0.5 * (now + next), 1e-300), 0.01, 0.998);
+    const double tau = std::clamp(-h / std::log(share), 0.3 * h, 20.0);
+    const double ratio = std::sqrt(0.5 * (now + next) / count) / noise.sigma;
+    noise.sigma *= std::clamp(std::pow(ratio, 1.8), 0.1, 10.0);
+    noise.tau *= std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0);
+    noise.tau = std::clamp(noise.tau, 0.3 * h, 20.0);
+    return std::abs(ratio - 1);
+  }
+};
+
+}  // namespace
+
+Moments FlightSmoother::moments() const {
+  Moments sum;
+  for (const ChunkResult& r : results_)
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      sum.square[c] += r.square[c];
+      sum.leverage[c] += r.leverage[c];
+      sum.count[c] += r.count[c];
+    }
+  return sum;
+}
+
+double FlightSmoother::retune(int rounds) {
+  const StateLayout& layout = record_->layout;
+  const int n = layout.size;
+  double change = 0;
+  for (int round = 0; round < rounds; ++round) {
+    if (round > 0) eliminate();
+    Elimination& el = trial_elimination_;
+    posterior_covariances(el);
+    const std::vector<VectorXd> dx = optimum();
+    const VectorXd& du = dx.back();
+    ProcessMoments turn, push;
+    double motors = 0, motor_seconds = 0;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      if (!places_[k].linked) continue;
+      const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
+      const double h = arc.t[places_[k].end] - arc.t[places_[k].begin];
+      const VectorXd now = outside(k) + dx[k], next = outside(k + 1) + dx[k + 1];
+      const auto add = [&](ProcessMoments& sum, int at) {
+        for (int i = at; at >= 0 && i < at + 3; ++i)
+          sum.add(now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i), el.cross[k](i, i), h);
+      };
+      add(turn, layout.w_dot), add(push, layout.v_dot);
+      if (layout.motors < 0 || noise_.q_motor <= 0) continue;
+      const auto E = chunk::E(results_[k], n);
+      const VectorXd d = defect(k);
+      for (int r = layout.motors; r < layout.motors + layout.rotors; ++r) {
+        const VectorXd e = E.row(r).head(n).transpose();
+        const double left = d[r] + e.dot(dx[k]) + E.row(r).tail(theta_->size()).dot(du) - dx[k + 1][r];
+        const double V = e.dot(el.P[k] * e) - 2 * e.dot(el.cross[k].col(r)) + el.P[k + 1](r, r);
+        motors += left * left + V, motor_seconds += h;
+      }
+    }
+    change = std::max(turn.update(noise_.w_dot), push.update(noise_.v_dot));
+    if (motor_seconds > 0) {
+      const double ratio = motors / motor_seconds / noise_.q_motor;
+      noise_.q_motor = std::max(noise_.q_motor * std::clamp(std::pow(ratio, 1.8), 0.02, 50.0), 1e-9);
+      change = std::max(change, 0.5 * std::abs(ratio - 1));
+    }
+    if (change < 0.01) break;
+  }
+  return change;
+}
+
+std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
+  const int n = record_->layout.size, m = theta_->size();
+  const std::size_t K = places_.size();
+  std::vector<MatrixXd> dX(K);  // of the states over the shared unknowns
+  for (std::size_t k = K; k-- > 0;) {
+    dX[k] = -accepted_.B[k];
+    if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
+  }
+  std::vector<ScoreBlock> blocks;
+  for (std::size_t k = 0; k < K; ++k) {
+    const ChunkPlace& place = places_[k];
+    const FlightArc& arc = record_->arcs[static_cast<std::size_t>(place.arc)];
+    const ChunkResult& r = results_[k];
+    MatrixXd T(n + m, m);
+    T << dX[k], MatrixXd::Identity(m, m);
+    VectorXd score = T.transpose() * chunk::g(r);
+    MatrixXd F = T.transpose() * (chunk::A(r) * T);
+    if (k == 0 || !places_[k - 1].linked) {
+      const VectorXd info = start_information();
+      score += dX[k].transpose() * info.cwiseProduct(outside(k));
+      F.noalias() += dX[k].transpose() * (info.asDiagonal() * dX[k]);
+    }
+    if (place.linked) {
+      const MatrixXd E = carried(k).asDiagonal() * chunk::E(r, n);
+      const VectorXd W = link_weight(k);
+      const MatrixXd slope = E * T - dX[k + 1];
+      score.noalias() += slope.transpose() * W.cwiseProduct(defect(k));
+      F.noalias() += slope.transpose() * (W.asDiagonal() * slope);
+    }
+    if (blocks.empty() || blocks.back().arc != place.arc || blocks.back().to - blocks.back().from >= seconds)
+      blocks.push_back({place.arc, arc.t[place.begin], 0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)});
+    blocks.back().to = arc.t[place.end];
+    blocks.back().score += score;
+    blocks.back().information += F;
+  }
+  return blocks;
+}
+
+}  // namespace ident
