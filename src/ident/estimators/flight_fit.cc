@@ -99,8 +99,8 @@ NoiseModel initial_noise(const FlightRecord& record) {
   }
   if (v == 0) v = 2.0;
   if (w == 0) w = 5.0;
-  noise.w_dot = {0.2 * w, 0.1};
-  noise.v_dot = {0.1 * v, 0.5};
+  noise.w_dot.fill({0.2 * w, 0.1});
+  noise.v_dot.fill({0.1 * v, 0.5});
   noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
   return noise;
 }
@@ -125,16 +125,14 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise) {
   // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
   // the velocity by h/4 of that: this may reach half the noise of one sample.
   double h = 0.25;
-  const auto shorten = [&](int channel, const ColouredNoise& process) {
-    double samples = 0, sigma = 0;
-    for (int i = channel; i < channel + 3; ++i) {
-      sigma = std::max(sigma, noise.sigma[static_cast<std::size_t>(i)]);
-      for (const FlightArc& arc : record.arcs)
-        for (std::size_t row = 0; row < arc.rows(); ++row)
-          samples += std::isfinite(arc.y[row * kChannels + static_cast<std::size_t>(i)]);
+  const auto shorten = [&](std::size_t channel, const std::array<ColouredNoise, 3>& process) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool measured = record.sigma[channel + i] != 1.0;
+      if (measured && process[i].sigma > 0)
+        h = std::min(h,
+                     std::pow(2 * noise.sigma[channel + i] * std::sqrt(process[i].tau / 2) / process[i].sigma,
+                              2.0 / 3.0));
     }
-    if (samples > 0 && process.sigma > 0)
-      h = std::min(h, std::pow(2 * sigma * std::sqrt(process.tau / 2) / process.sigma, 2.0 / 3.0));
   };
   shorten(kGyro, noise.w_dot);
   shorten(kVelocity, noise.v_dot);

@@ -21,9 +21,9 @@ struct ColouredNoise {
 /// White noise of every channel, and the process noise.
 struct NoiseModel {
   std::array<double, kChannels> sigma{};
-  ColouredNoise w_dot;   ///< angular acceleration in the body frame, rad/s^2
-  ColouredNoise v_dot;   ///< acceleration in the world frame, m/s^2
-  double q_motor = 0.0;  ///< spectral density on rotor speeds, (rad/s)^2/s
+  std::array<ColouredNoise, 3> w_dot;  ///< angular acceleration in the body frame, rad/s^2
+  std::array<ColouredNoise, 3> v_dot;  ///< acceleration in the world frame, m/s^2
+  double q_motor = 0.0;                ///< spectral density on rotor speeds, (rad/s)^2/s
 };
 
 }  // namespace ident

@@ -29,12 +29,13 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 // Covariance of an unknown constant acceleration that moves velocities as much as the process does on average
 // over the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
-void expect_outside(RowMatrix& P, int at, const ColouredNoise& noise, double horizon) {
-  if (at < 0) return;
-  const double T = horizon / 2, moved = 2 * noise.tau * (T - noise.tau * (1 - noise.carried(T))) / (T * T);
-  for (int i = at; i < at + 3; ++i) {
-    P.row(i).setZero(), P.col(i).setZero();
-    P(i, i) = noise.sigma * noise.sigma * moved;
+void expect_outside(RowMatrix& P, int at, const std::array<ColouredNoise, 3>& noise, double horizon) {
+  const double T = horizon / 2;
+  for (int i = 0; i < 3 && at >= 0; ++i) {
+    const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];
+    const double moved = 2 * axis.tau * (T - axis.tau * (1 - axis.carried(T))) / (T * T);
+    P.row(at + i).setZero(), P.col(at + i).setZero();
+    P(at + i, at + i) = axis.sigma * axis.sigma * moved;
   }
 }
 

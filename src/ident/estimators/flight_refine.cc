@@ -46,6 +46,12 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   }
 }
 
+nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
+  nlohmann::ordered_json std = nlohmann::ordered_json::array(), time = std;
+  for (const ColouredNoise& axis : noise) std.push_back(axis.sigma), time.push_back(axis.tau);
+  return {{"std", std}, {"correlation_time", time}};
+}
+
 Table validation_table(const FlightRecord& held_out, const Theta& theta, const VectorXd& before,
                        const FlightFit& fit, Result& result) {
   Table table{"Prediction error on held-out flight, in noise standard deviations",
@@ -216,9 +222,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   result.fit["seconds"] = record.duration;
   result.fit["steps"] = fit.steps;
   result.fit["segment_seconds"] = fit.chunk_seconds;
-  result.fit["process_noise"] = {
-      {"angular_acceleration", {{"std", fit.noise.w_dot.sigma}, {"correlation_time", fit.noise.w_dot.tau}}},
-      {"acceleration", {{"std", fit.noise.v_dot.sigma}, {"correlation_time", fit.noise.v_dot.tau}}}};
+  result.fit["process_noise"] = {{"angular_acceleration", process_json(fit.noise.w_dot)},
+                                 {"acceleration", process_json(fit.noise.v_dot)}};
   nlohmann::ordered_json levels;
   for (int c = 0; c < kChannels; ++c)
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)

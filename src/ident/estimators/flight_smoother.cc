@@ -150,7 +150,7 @@ void FlightSmoother::predict(const VectorXd& u) {
   const VectorXd du = u - u_;
   VectorXd next;
   for (std::size_t k = places_.size(); k-- > 0;) {
-    VectorXd dx = -(accepted_.f[k] + accepted_.B[k] * du);
+    VectorXd dx = -(accepted_.f[k] + accepted_.B[k].leftCols(du.size()) * du);
     if (places_[k].linked) dx -= accepted_.G[k] * next;
     trial_[k] = moved(states_[k], dx);
     next = dx;

@@ -86,6 +86,9 @@ class FlightSmoother {
   double retune(int rounds);
   /// Calls `work` for 0 to count - 1 on all threads.
   void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const;
+  /// Further shared unknowns, after theta in the reduced system: accelerations from outside that follow given
+  /// profiles, [chunk](6 x count) over (w_dot, v_dot). None with an empty list.
+  void set_profiles(std::vector<Eigen::MatrixXd> profiles) { profiles_ = std::move(profiles); }
   /// Cuts all links: every chunk starts afresh.
   void unlink();
 
@@ -130,6 +133,9 @@ class FlightSmoother {
   Eigen::VectorXd carried(std::size_t k) const;
   Eigen::VectorXd start_information() const;
   Eigen::VectorXd outside(std::size_t k) const;
+  Eigen::Index shared() const;
+  Eigen::MatrixXd profile(std::size_t k) const;
+  Eigen::MatrixXd link_slope(std::size_t k) const;
   void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum);
   void add_link(std::size_t k, Eigen::MatrixXd& D, Eigen::MatrixXd& B, Eigen::VectorXd& f, Eigen::MatrixXd& U,
                 Carry& carry, ReducedSystem& sum) const;
@@ -148,6 +154,7 @@ class FlightSmoother {
   std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
   std::vector<ChunkResult> results_;
+  std::vector<Eigen::MatrixXd> profiles_;
   Eigen::VectorXd u_, trial_u_;  // of the accepted and of the last linearisation
   Elimination accepted_, trial_elimination_;
   ReducedSystem reduced_;

@@ -31,8 +31,11 @@ VectorXd FlightSmoother::carried(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   VectorXd share = VectorXd::Ones(layout.size);
   const double h = length(*record_, places_[k]);
-  if (layout.w_dot >= 0) share.segment<3>(layout.w_dot).setConstant(noise_.w_dot.carried(h));
-  if (layout.v_dot >= 0) share.segment<3>(layout.v_dot).setConstant(noise_.v_dot.carried(h));
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (layout.w_dot >= 0) share[layout.w_dot + i] = noise_.w_dot[axis].carried(h);
+    if (layout.v_dot >= 0) share[layout.v_dot + i] = noise_.v_dot[axis].carried(h);
+  }
   return share;
 }
 
@@ -40,8 +43,11 @@ VectorXd FlightSmoother::carried(std::size_t k) const {
 VectorXd FlightSmoother::start_information() const {
   const StateLayout& layout = record_->layout;
   VectorXd info = VectorXd::Zero(layout.size);
-  if (layout.w_dot >= 0) info.segment<3>(layout.w_dot).setConstant(1 / variance(noise_.w_dot));
-  if (layout.v_dot >= 0) info.segment<3>(layout.v_dot).setConstant(1 / variance(noise_.v_dot));
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / variance(noise_.w_dot[axis]);
+    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / variance(noise_.v_dot[axis]);
+  }
   return info;
 }
 
@@ -52,6 +58,30 @@ VectorXd FlightSmoother::outside(std::size_t k) const {
   if (layout.w_dot >= 0) x.segment<3>(layout.w_dot) = trial_[k].outside.w_dot_B;
   if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot_W;
   return x;
+}
+
+Index FlightSmoother::shared() const {
+  return theta_->size() + (profiles_.empty() ? 0 : profiles_[0].cols());
+}
+
+// The profiles of chunk k within the local state.
+MatrixXd FlightSmoother::profile(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  MatrixXd P = MatrixXd::Zero(layout.size, profiles_[k].cols());
+  if (layout.w_dot >= 0) P.middleRows<3>(layout.w_dot) = profiles_[k].topRows<3>();
+  if (layout.v_dot >= 0) P.middleRows<3>(layout.v_dot) = profiles_[k].bottomRows<3>();
+  return P;
+}
+
+// Derivative of the defect of chunk k over its state and the shared unknowns, the next state held.
+MatrixXd FlightSmoother::link_slope(std::size_t k) const {
+  const Index n = record_->layout.size, m = theta_->size();
+  const VectorXd share = carried(k);
+  MatrixXd E(n, n + shared());
+  E.leftCols(n + m) = share.asDiagonal() * chunk::E(results_[k], record_->layout.size);
+  // The process is what is left of the acceleration beyond the profile.
+  if (!profiles_.empty()) E.rightCols(shared() - m) = profile(k + 1) - share.asDiagonal() * profile(k);
+  return E;
 }
 
 // Inverse variance of the defect: what accelerations from outside win anew over a chunk, q h for rotor
@@ -71,10 +101,12 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   };
   continues(layout.w, kGyro), continues(layout.attitude, kAttitude);
   continues(layout.v, kVelocity), continues(layout.x, kPosition);
-  const auto wanders = [&](int at, const ColouredNoise& noise) {
-    const double share = noise.carried(h);
-    if (at >= 0)
-      W.segment<3>(at).setConstant(1.0 / (noise.sigma * noise.sigma * (1 - share * share) + kLeastOutside));
+  const auto wanders = [&](int at, const std::array<ColouredNoise, 3>& noise) {
+    for (int i = 0; i < 3 && at >= 0; ++i) {
+      const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];
+      const double share = axis.carried(h);
+      W[at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + kLeastOutside);
+    }
   };
   wanders(layout.w_dot, noise_.w_dot), wanders(layout.v_dot, noise_.v_dot);
   const double omega_m = theta_->p(trial_u_)[param::omega_m];
@@ -89,8 +121,8 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
 // Adds the link of chunk k to its own block, and what it means for the next one to `carry`.
 void FlightSmoother::add_link(std::size_t k, MatrixXd& D, MatrixXd& B, VectorXd& f, MatrixXd& U, Carry& carry,
                               ReducedSystem& sum) const {
-  const Index n = record_->layout.size, m = theta_->size();
-  const MatrixXd E = carried(k).asDiagonal() * chunk::E(results_[k], record_->layout.size);
+  const Index n = record_->layout.size, m = shared();
+  const MatrixXd E = link_slope(k);
   const VectorXd W = link_weight(k), d = defect(k), Wd = W.cwiseProduct(d);
   const MatrixXd WE = W.asDiagonal() * E;
   D.noalias() += E.leftCols(n).transpose() * WE.leftCols(n);
@@ -106,7 +138,7 @@ void FlightSmoother::add_link(std::size_t k, MatrixXd& D, MatrixXd& B, VectorXd&
 }
 
 void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum) {
-  const int n = record_->layout.size, m = theta_->size();
+  const Index n = record_->layout.size, own = theta_->size(), m = shared();
   Elimination& el = trial_elimination_;
   sum = {0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)};
   const VectorXd at_start = start_information();
@@ -115,10 +147,11 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
   for (std::size_t k = begin; k < end; ++k) {
     const ChunkResult& r = results_[k];
     const chunk::ConstRowMap A = chunk::A(r);
-    MatrixXd D = A.topLeftCorner(n, n), B = A.topRightCorner(n, m);
+    MatrixXd D = A.topLeftCorner(n, n), B = MatrixXd::Zero(n, m);
+    B.leftCols(own) = A.topRightCorner(n, own);
     VectorXd f = chunk::g(r).head(n);
-    sum.S += A.bottomRightCorner(m, m);
-    sum.g += chunk::g(r).tail(m);
+    sum.S.topLeftCorner(own, own) += A.bottomRightCorner(own, own);
+    sum.g.head(own) += chunk::g(r).tail(own);
     sum.cost += r.cost;
     if (carry.on) {
       D += carry.D, B += carry.B, f += carry.g;
@@ -127,6 +160,12 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
       D.diagonal() += at_start;
       f += at_start.cwiseProduct(x);
       sum.cost += x.dot(at_start.cwiseProduct(x));
+      if (m > own) {
+        const MatrixXd P = profile(k), WP = at_start.asDiagonal() * P;
+        B.rightCols(m - own) -= WP;
+        sum.S.bottomRightCorner(m - own, m - own) += P.transpose() * WP;
+        sum.g.tail(m - own) -= WP.transpose() * x;
+      }
     }
     carry.on = places_[k].linked;
     if (carry.on) add_link(k, D, B, f, U, carry, sum);
@@ -162,7 +201,7 @@ void FlightSmoother::eliminate() {
   el.G.resize(K), el.B.resize(K), el.f.resize(K), el.D_inverse.resize(K);
   std::vector<ReducedSystem> parts(arcs);
   in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a]); });
-  reduced_ = {0.0, VectorXd::Zero(theta_->size()), MatrixXd::Zero(theta_->size(), theta_->size())};
+  reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared())};
   for (const ReducedSystem& part : parts)
     reduced_.cost += part.cost, reduced_.g += part.g, reduced_.S += part.S;
   reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
@@ -187,10 +226,11 @@ void FlightSmoother::posterior_covariances(Elimination& el) const {
 std::vector<VectorXd> FlightSmoother::optimum() const {
   const PriorTerms prior = theta_->prior(trial_u_);
   MatrixXd H = reduced_.S;
-  H.diagonal() += prior.slope.cwiseAbs2();
+  // Directions that the data do not tell stay where they are: no further than some units without a prior.
+  H.diagonal() += prior.slope.cwiseAbs2().cwiseMax(1e-2);
   const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
-  scaled.diagonal().array() += 1e-9;
+  scaled.diagonal().array() += 1e-7;
   const VectorXd g = reduced_.g + prior.slope.cwiseProduct(prior.residual);
   const VectorXd du =
       theta_->size() > 0

@@ -13,6 +13,9 @@ using Eigen::VectorXd;
 
 namespace {
 
+// Gusts are not slower than this, s: what stays longer is a cause to be found, not noise.
+constexpr double kSlowest = 4.0;
+
 // Second moments of a Gauss-Markov process over all links: expectations given the data.
 struct ProcessMoments {
   double now = 0, next = 0, cross = 0, seconds = 0, count = 0;
@@ -27,11 +30,11 @@ struct ProcessMoments {
     if (count < 8 || noise.sigma <= 0) return 0;
     const double h = seconds / count;
     const double share = std::clamp(cross / std::max(0.5 * (now + next), 1e-300), 0.01, 0.998);
-    const double tau = std::clamp(-h / std::log(share), 0.3 * h, 20.0);
+    const double tau = std::clamp(-h / std::log(share), 0.3 * h, kSlowest);
     const double ratio = std::sqrt(0.5 * (now + next) / count) / noise.sigma;
     noise.sigma *= std::clamp(std::pow(ratio, 1.8), 0.1, 10.0);
     noise.tau *= std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0);
-    noise.tau = std::clamp(noise.tau, 0.3 * h, 20.0);
+    noise.tau = std::clamp(noise.tau, 0.3 * h, kSlowest);
     return std::abs(ratio - 1);
   }
 };
@@ -59,16 +62,17 @@ double FlightSmoother::retune(int rounds) {
     posterior_covariances(el);
     const std::vector<VectorXd> dx = optimum();
     const VectorXd& du = dx.back();
-    ProcessMoments turn, push;
+    std::array<ProcessMoments, 3> turn, push;
     double motors = 0, motor_seconds = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
       const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
       const double h = arc.t[places_[k].end] - arc.t[places_[k].begin];
       const VectorXd now = outside(k) + dx[k], next = outside(k + 1) + dx[k + 1];
-      const auto add = [&](ProcessMoments& sum, int at) {
+      const auto add = [&](std::array<ProcessMoments, 3>& sum, int at) {
         for (int i = at; at >= 0 && i < at + 3; ++i)
-          sum.add(now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i), el.cross[k](i, i), h);
+          sum[static_cast<std::size_t>(i - at)].add(now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i),
+                                                    el.cross[k](i, i), h);
       };
       add(turn, layout.w_dot), add(push, layout.v_dot);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
@@ -81,7 +85,9 @@ double FlightSmoother::retune(int rounds) {
         motors += left * left + V, motor_seconds += h;
       }
     }
-    change = std::max(turn.update(noise_.w_dot), push.update(noise_.v_dot));
+    change = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      change = std::max({change, turn[i].update(noise_.w_dot[i]), push[i].update(noise_.v_dot[i])});
     if (motor_seconds > 0) {
       const double ratio = motors / motor_seconds / noise_.q_motor;
       noise_.q_motor = std::max(noise_.q_motor * std::clamp(std::pow(ratio, 1.8), 0.02, 50.0), 1e-9);
@@ -93,7 +99,7 @@ double FlightSmoother::retune(int rounds) {
 }
 
 std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
-  const int n = record_->layout.size, m = theta_->size();
+  const Index n = record_->layout.size, own = theta_->size(), m = shared();
   const std::size_t K = places_.size();
   std::vector<MatrixXd> dX(K);  // of the states over the shared unknowns
   for (std::size_t k = K; k-- > 0;) {
@@ -101,31 +107,33 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
   }
   std::vector<ScoreBlock> blocks;
+  MatrixXd T(n + m, m);
+  T.bottomRows(m).setIdentity();
   for (std::size_t k = 0; k < K; ++k) {
     const ChunkPlace& place = places_[k];
     const FlightArc& arc = record_->arcs[static_cast<std::size_t>(place.arc)];
-    const ChunkResult& r = results_[k];
-    MatrixXd T(n + m, m);
-    T << dX[k], MatrixXd::Identity(m, m);
-    VectorXd score = T.transpose() * chunk::g(r);
-    MatrixXd F = T.transpose() * (chunk::A(r) * T);
-    if (k == 0 || !places_[k - 1].linked) {
-      const VectorXd info = start_information();
-      score += dX[k].transpose() * info.cwiseProduct(outside(k));
-      F.noalias() += dX[k].transpose() * (info.asDiagonal() * dX[k]);
-    }
-    if (place.linked) {
-      const MatrixXd E = carried(k).asDiagonal() * chunk::E(r, n);
-      const VectorXd W = link_weight(k);
-      const MatrixXd slope = E * T - dX[k + 1];
-      score.noalias() += slope.transpose() * W.cwiseProduct(defect(k));
-      F.noalias() += slope.transpose() * (W.asDiagonal() * slope);
-    }
     if (blocks.empty() || blocks.back().arc != place.arc || blocks.back().to - blocks.back().from >= seconds)
       blocks.push_back({place.arc, arc.t[place.begin], 0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)});
+    VectorXd& score = blocks.back().score;
+    MatrixXd& F = blocks.back().information;
+    T.topRows(n) = dX[k];
+    const auto near = T.topRows(n + own);  // profiles act through links only
+    score.noalias() += near.transpose() * chunk::g(results_[k]);
+    F.noalias() += near.transpose() * MatrixXd(chunk::A(results_[k]) * near);
+    if (k == 0 || !places_[k - 1].linked) {
+      const VectorXd info = start_information();
+      MatrixXd slope = dX[k];
+      if (m > own) slope.rightCols(m - own) -= profile(k);
+      score.noalias() += slope.transpose() * info.cwiseProduct(outside(k));
+      F.noalias() += slope.transpose() * MatrixXd(info.asDiagonal() * slope);
+    }
+    if (place.linked) {
+      const VectorXd W = link_weight(k);
+      const MatrixXd slope = link_slope(k) * T - dX[k + 1];
+      score.noalias() += slope.transpose() * W.cwiseProduct(defect(k));
+      F.noalias() += slope.transpose() * MatrixXd(W.asDiagonal() * slope);
+    }
     blocks.back().to = arc.t[place.end];
-    blocks.back().score += score;
-    blocks.back().information += F;
   }
   return blocks;
 }

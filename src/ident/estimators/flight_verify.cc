@@ -39,7 +39,7 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   const NoiseModel noise = initial_noise(record);
   FlightSmoother smoother(record, theta, noise, horizon);
   NoiseModel calm = noise;
-  calm.w_dot.sigma = calm.v_dot.sigma = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) calm.w_dot[i].sigma = calm.v_dot[i].sigma = 0.0;
   smoother.set_noise(calm);
   smoother.unlink();
   smoother.settle(Eigen::VectorXd::Zero(theta.size()), 4);

@@ -10,8 +10,10 @@
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/gap/gap_sections.h"
+#include "ident/gap/generic_rival.h"
 #include "ident/gap/model_search.h"
 #include "ident/gap/residual_wrench.h"
+#include "ident/gap/spectral_line.h"
 
 namespace ident {
 namespace {
@@ -20,7 +22,9 @@ using Json = nlohmann::ordered_json;
 
 // A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
 constexpr double kMostlyClosed = 0.5;
-// Share of the explained excess that the generic rival may still predict before the catalogue is not enough.
+// A generic rival that gains this much on held-out flight has seen something, and that share of what the
+// causes explain is too much for a catalogue that should be enough.
+constexpr double kRivalGain = 25.0;
 constexpr double kRivalShare = 0.25;
 constexpr double kSure = 0.8;
 
@@ -43,29 +47,36 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
   return names;
 }
 
-Judged judge(const SearchResult& search, const GapClosed& gap, const Eigen::VectorXd& rival_before,
-             const Eigen::VectorXd& rival_after, const ResidualWrench& before, const ResidualWrench& after) {
+Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+             const std::vector<SpectralLine>& lines) {
   Judged out;
   out.effects = names_of(search.best.adopted);
-  // What a generic regression still predicts, in units of the noise, against what there was to explain.
-  const Eigen::VectorXd e0 = before.rms().cwiseQuotient(before.noise).cwiseAbs2();
-  const Eigen::VectorXd e1 = after.rms().cwiseQuotient(after.noise).cwiseAbs2();
-  const double was = rival_before.dot(e0), left = rival_after.dot(e1);
-  const double worst_left = rival_after.maxCoeff();
+  double found = 0;
+  for (const SearchStep& step : search.steps) found += step.gain;
   if (out.effects.empty()) {
-    const bool structure = worst_left > 0.3 && left > 1.0;
-    out.status = structure ? "unknown" : "none";
-    out.sentence =
-        structure
-            ? "Something that no cause of the catalogue explains acts on this vehicle: the residual can be "
-              "predicted from the flight itself, but not by any single cause."
-            : "The model explains these logs down to the noise; no cause stands out.";
+    if (rival.total() > kRivalGain) {
+      out.status = "unknown";
+      out.sentence =
+          "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
+          "misses can "
+          "be predicted from the flight itself.";
+    } else if (!lines.empty()) {
+      out.status = "unknown";
+      out.sentence = fmt::format(
+          "Something swings or vibrates at {} Hz (seen in {}) that no cause of the catalogue explains: a "
+          "slung or "
+          "loose load, a flexible arm, a propeller out of balance.",
+          format_number(lines[0].hz, 3), lines[0].channel);
+    } else {
+      out.status = "none";
+      out.sentence = "The model explains these logs down to the noise; no cause stands out.";
+    }
     return out;
   }
   const bool remains = std::isfinite(gap.closed) && gap.closed < kMostlyClosed;
-  const bool rival = was > 0 && left > kRivalShare * was && worst_left > 0.2;
+  const bool better = rival.total() > kRivalGain && rival.total() > kRivalShare * found;
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
-  if (remains || rival) {
+  if (remains || better) {
     out.status = "unknown";
     out.confused_with = out.effects;
     out.sentence =
@@ -211,8 +222,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
       search.best.adopted.empty()
           ? before
           : residual_wrench(record, *search.best.theta, search.best.fit, search.best.fit.noise);
-  const Eigen::VectorXd rival_before = generic_rival(before),
-                        rival_after = search.best.adopted.empty() ? rival_before : generic_rival(after);
+  const Rival rival = generic_rival(record, *search.best.theta, search.best.fit, search.form.noise);
 
   // Held out: both models fitted to the first 70 % of each log, judged on the rest under the final noise.
   const RecordSplit split = split_record(record, 0.7);
@@ -242,7 +252,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                         {"closed", number(one.closed)},
                         {"closed_ci95", {number(one.ci95[0]), number(one.ci95[1])}}});
   }
-  const Judged verdict = judge(search, gap, rival_before, rival_after, before, after);
+  const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
+  const Judged verdict = judge(search, gap, rival, lines);
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
                              {"confused_with", verdict.confused_with},
@@ -256,11 +267,14 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                          {"closed", number(gap.closed)},
                          {"closed_ci95", {number(gap.ci95[0]), number(gap.ci95[1])}},
                          {"horizons", horizons}};
-  Json rival = Json::object();
-  for (Eigen::Index c = 0; c < rival_after.size(); ++c)
-    rival[after.names[static_cast<std::size_t>(c)]] = {{"before", rival_before[c]},
-                                                       {"after", rival_after[c]}};
-  result.extra["generic_rival"] = rival;
+  Json left = Json::object();
+  for (std::size_t c = 0; c < 6; ++c) left[before.names[c]] = rival.gain[c];
+  result.extra["generic_rival"] = left;
+  Json narrow = Json::array();
+  for (const SpectralLine& line : lines)
+    narrow.push_back(
+        {{"channel", line.channel}, {"hz", line.hz}, {"height", line.height}, {"share", line.share}});
+  result.extra["lines"] = narrow;
   Json steps = Json::array();
   for (const SearchStep& s : search.steps) steps.push_back({{"adopted", s.name}, {"gain", s.gain}});
   result.extra["search"] = steps;

@@ -146,9 +146,9 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     std::vector<Candidate> adopted = out.best.adopted;
     adopted.push_back(chosen);
     FlightFitOptions again = fit;
-    again.noise = out.best.fit.noise;
-    again.chunk_seconds = 0;
-    again.noise_rounds = 3;
+    again.noise = out.form.noise;
+    again.chunk_seconds = std::min(out.best.fit.chunk_seconds, chunk_for(record, out.form.noise));
+    again.estimate_noise = false;
     FittedModel next = fitted(constants, adopted, record, at, again);
     out.steps.push_back({described(chosen), best_gain});
     out.best = std::move(next);

@@ -17,8 +17,6 @@ struct ResidualWrench {
   std::vector<int> log;
   Eigen::MatrixXd residual;  ///< [chunk][channel], N, N m, rad/s^2
   Eigen::VectorXd noise;     ///< standard deviation of a row of each channel for a perfect model
-  Eigen::MatrixXd features;  ///< [chunk][feature], inputs that a generic model may use
-  std::vector<std::string> feature_names;
   /// Regime variables by name: airspeed, climb, tilt, rates, collective, height, voltage.
   std::vector<std::pair<std::string, Eigen::VectorXd>> regimes;
 
@@ -29,9 +27,5 @@ struct ResidualWrench {
 
 ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
                                const NoiseModel& floor);
-
-/// Share of each channel's variance that a ridge regression on the features predicts in blocks left out, at
-/// least 0.
-Eigen::VectorXd generic_rival(const ResidualWrench& wrench);
 
 }  // namespace ident

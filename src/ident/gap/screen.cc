@@ -67,8 +67,11 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   VectorXd u = VectorXd::Zero(theta.size());
   const int biases = theta.size() - theta.constants_count();
   u.tail(biases) = fit.u.tail(biases);
-  const ReducedSystem system = smoother.linearize(u);  // the states are at their best already
+  smoother.linearize(u);  // the states are at their best already
+  smoother.retune(10);
+  const ReducedSystem system = smoother.relinearize();
   smoother.accept();
+  form.noise = smoother.noise();
   form.cost0 = system.cost;
   form.g = system.g;
   form.S = system.S;

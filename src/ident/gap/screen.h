@@ -15,11 +15,13 @@ struct QuadraticForm {
   Eigen::MatrixXd S;
   Eigen::MatrixXd scores;                    ///< [constant][block], base projected out
   std::vector<Eigen::MatrixXd> information;  ///< of each block, constants x constants, base projected out
+  NoiseModel noise;  ///< what is left when every cause is free: the floor under which all are compared
   int base = 0, constants = 0;
 };
 
 /// Linearises everything at a fit. The first `problem.base` constants must be those of the fit, at its
-/// values.
+/// values. The process noise is found anew with every cause free: with a cause missing its work would be
+/// taken for gusts, and no test could see it.
 QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,
                                    const ExtendedProblem& problem);
 

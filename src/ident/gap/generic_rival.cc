@@ -1,0 +1,135 @@
+// Features of the flight as profiles of acceleration from outside, and their gain on blocks left out.
+#include "ident/gap/generic_rival.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kChunk = 0.2;  // s: features are slow
+constexpr int kFolds = 6;
+
+double at(const std::vector<double>& column, std::size_t i) { return column.empty() ? 1.0 : column[i]; }
+
+// One row for each chunk: what the flight shows there, and two velocities and rates before.
+MatrixXd features(const FlightRecord& record, const FlightSmoother& smoother, double hover) {
+  const auto& places = smoother.chunks();
+  const auto& states = smoother.states();
+  const auto N = static_cast<std::size_t>(record.layout.rotors);
+  std::vector<VectorXd> rows;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
+    const FlightState<double>& x = states[k];
+    const Mat3<double> R = rotation(x.body.q_WB);
+    const Eigen::Vector3d v = R.transpose() * x.body.v_W, w = x.body.w_B;
+    std::vector<double> f;
+    for (int c = 0; c < 3; ++c)
+      f.insert(f.end(), {v[c], v[c] * v.norm(), w[c], R(2, c), w[c] * w[(c + 1) % 3]});
+    f.insert(f.end(), {v.head<2>().squaredNorm(), R(0, 0), R(1, 0)});
+    double thrust = 0;
+    for (std::size_t n = 0; n < N; ++n) {
+      const double ratio = x.motors[n].Omega / hover;
+      thrust += ratio * ratio / static_cast<double>(N);
+      f.insert(f.end(), {ratio * ratio, x.motors[n].Omega_dot / hover});
+    }
+    const double z = std::max(record.vehicle->ground_z - x.body.x_W[2], 0.0);
+    f.insert(f.end(), {thrust * thrust, thrust / (0.05 + z * z),
+                       at(arc.inputs.voltage_ratio, places[k].begin) * thrust,
+                       (arc.t[places[k].begin] - arc.inputs.t0) * thrust});
+    // Memory: a swinging load, air that has to be set in motion.
+    for (const std::size_t back : {1UL, 3UL}) {
+      const bool there = k >= back && places[k - back].arc == places[k].arc;
+      const FlightState<double>& y = there ? states[k - back] : x;
+      for (int c = 0; c < 3; ++c) f.insert(f.end(), {y.body.v_W[c] - x.body.v_W[c], y.body.w_B[c] - w[c]});
+    }
+    rows.push_back(Eigen::Map<VectorXd>(f.data(), static_cast<Index>(f.size())));
+  }
+  MatrixXd X(static_cast<Index>(rows.size()), rows.empty() ? 0 : rows[0].size());
+  for (std::size_t k = 0; k < rows.size(); ++k) X.row(static_cast<Index>(k)) = rows[k];
+  for (Index c = 0; c < X.cols(); ++c) {
+    X.col(c).array() -= X.col(c).mean();
+    const double s = std::sqrt(X.col(c).squaredNorm() / static_cast<double>(X.rows()));
+    X.col(c) *= s > 1e-9 ? 1.0 / s : 0.0;
+  }
+  return X;
+}
+
+// Fall of the cost on the blocks of each fold, of unknowns fitted to the others; beyond that of theta alone.
+double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& prior) {
+  const Index m = blocks[0].score.size(), own = prior.slope.size();
+  VectorXd info = VectorXd::Ones(m), pull = VectorXd::Zero(m);
+  info.head(own) = prior.slope.cwiseAbs2().cwiseMax(1e-2);
+  pull.head(own) = prior.slope.cwiseProduct(prior.residual);
+  const auto solved = [&](const MatrixXd& F, const VectorXd& g, Index size) {
+    MatrixXd H = F.topLeftCorner(size, size);
+    H.diagonal() += info.head(size);
+    return VectorXd(-Eigen::LDLT<MatrixXd>(H).solve(g.head(size) + pull.head(size)));
+  };
+  const auto fall = [](const ScoreBlock& block, const VectorXd& x) {
+    const Index n = x.size();
+    return -2 * block.score.head(n).dot(x) - x.dot(block.information.topLeftCorner(n, n) * x);
+  };
+  double gain = 0;
+  for (int fold = 0; fold < kFolds; ++fold) {
+    const auto left_out = [&](std::size_t b) { return static_cast<int>(b / 2) % kFolds == fold; };
+    MatrixXd F = MatrixXd::Zero(m, m);
+    VectorXd g = VectorXd::Zero(m);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (!left_out(b)) F += blocks[b].information, g += blocks[b].score;
+    const VectorXd all = solved(F, g, m), plain = solved(F, g, own);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (left_out(b)) gain += fall(blocks[b], all) - fall(blocks[b], plain);
+  }
+  return gain;
+}
+
+}  // namespace
+
+double Rival::total() const {
+  double sum = 0;
+  for (const double x : gain) sum += std::max(x, 0.0);
+  return sum;
+}
+
+Rival generic_rival(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
+                    const NoiseModel& floor) {
+  Rival rival;
+  FlightSmoother smoother(record, theta, floor, std::max(fit.chunk_seconds, kChunk));
+  if (smoother.chunks().size() < 60) return rival;
+  smoother.settle(fit.u, 2);
+  smoother.linearize(fit.u);
+  smoother.accept();
+  const std::vector<double> p = theta.p(fit.u);
+  const double hover =
+      std::sqrt(p[param::m] * record.vehicle->g / (static_cast<double>(record.layout.rotors) * p[param::kT]));
+  const MatrixXd X = features(record, smoother, hover);
+  const PriorTerms prior = theta.prior(fit.u);
+  double push = 0;
+  for (const ColouredNoise& axis : floor.v_dot) push += axis.sigma / 3;
+  for (int channel = 0; channel < 6; ++channel) {
+    const bool force = channel < 3;
+    if (force ? record.layout.v_dot < 0 : record.layout.w_dot < 0) continue;
+    std::vector<MatrixXd> profiles;
+    for (std::size_t k = 0; k < smoother.chunks().size(); ++k) {
+      Eigen::Matrix<double, 6, 1> direction = Eigen::Matrix<double, 6, 1>::Zero();
+      if (force)
+        direction.tail<3>() = push * rotation(smoother.states()[k].body.q_WB).col(channel);
+      else
+        direction[channel - 3] = floor.w_dot[static_cast<std::size_t>(channel - 3)].sigma;
+      profiles.emplace_back(direction * X.row(static_cast<Index>(k)));
+    }
+    smoother.set_profiles(std::move(profiles));
+    smoother.relinearize();
+    smoother.accept();
+    rival.gain[static_cast<std::size_t>(channel)] = held_out_gain(smoother.score_blocks(2.0), prior);
+  }
+  return rival;
+}
+
+}  // namespace ident

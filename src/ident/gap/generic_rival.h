@@ -1,0 +1,22 @@
+// The rival of every named cause: a plain regression of the missing accelerations on what the flight shows.
+#pragma once
+
+#include <array>
+
+#include "ident/gap/residual_wrench.h"
+
+namespace ident {
+
+/// What a regression on velocity, rates, rotor speeds, attitude, height, voltage, time and the recent past
+/// predicts beyond a model, as fall of the cost (twice the log likelihood) on blocks that it was not fitted
+/// to. Below 0: it only follows noise.
+struct Rival {
+  std::array<double, 6> gain{};  ///< Fx Fy Fz Mx My Mz
+  double total() const;          ///< of the channels that gain
+};
+
+/// The rival of a fitted model under the noise `floor`; `wrench` is that of the model.
+Rival generic_rival(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
+                    const NoiseModel& floor);
+
+}  // namespace ident

@@ -1,0 +1,111 @@
+// Welch spectra over all logs, compared with their own running median.
+#include "ident/gap/spectral_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/FFT>
+
+namespace ident {
+namespace {
+
+constexpr double kChance = 5.6;     // standard deviations: one in ten thousand over some ten thousand bins
+constexpr double kMaterial = 0.02;  // share of the variance
+
+using Pieces = std::vector<std::vector<double>>;  // of a series, evenly sampled, one for each arc
+
+// Mean periodogram of half overlapping stretches; `count` of them.
+std::vector<double> welch(const Pieces& pieces, std::size_t length, int& count) {
+  std::vector<double> power(length / 2 + 1, 0.0), stretch(length);
+  std::vector<std::complex<double>> frequency;
+  Eigen::FFT<double> fft;
+  count = 0;
+  for (const std::vector<double>& x : pieces)
+    for (std::size_t from = 0; from + length <= x.size(); from += length / 2) {
+      double mean = 0;
+      for (std::size_t i = 0; i < length; ++i) mean += x[from + i] / static_cast<double>(length);
+      for (std::size_t i = 0; i < length; ++i)
+        stretch[i] = (x[from + i] - mean) *
+                     (0.5 - 0.5 * std::cos(2 * M_PI * static_cast<double>(i) / static_cast<double>(length)));
+      fft.fwd(frequency, stretch);
+      for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(frequency[k]);
+      ++count;
+    }
+  return power;
+}
+
+double running_median(const std::vector<double>& power, std::size_t k) {
+  const std::size_t half = std::max<std::size_t>(6, k / 4), first = k > half ? k - half : 1;
+  std::vector<double> around(
+      power.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(first, 1)),
+      power.begin() + static_cast<std::ptrdiff_t>(std::min(k + half + 1, power.size())));
+  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+  std::nth_element(around.begin(), middle, around.end());
+  return *middle;
+}
+
+// The strongest line of a series sampled every h seconds, if there is one.
+void look_for_line(const std::string& channel, const Pieces& pieces, double h,
+                   std::vector<SpectralLine>& out) {
+  std::size_t longest = 0;
+  for (const auto& piece : pieces) longest = std::max(longest, piece.size());
+  std::size_t length = 1024;
+  while (length * 4 > longest && length > 64) length /= 2;
+  if (length * 4 > longest) return;
+  int count = 0;
+  const std::vector<double> power = welch(pieces, length, count);
+  // Quantile of the mean of `count` periodograms over its median (Wilson and Hilferty).
+  const double v = 1 / (9 * 0.8 * count), most = std::pow((1 - v + kChance * std::sqrt(v)) / (1 - v), 3);
+  double total = 0, best = 0, share = 0;
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < power.size(); ++k) total += power[k];
+  for (std::size_t k = 4; k + 2 < power.size(); ++k) {
+    const double around = running_median(power, k), height = power[k] / std::max(around, 1e-300);
+    if (height <= best || power[k] < power[k - 1] || power[k] < power[k + 1]) continue;
+    best = height, at = k;
+    share = (power[k - 1] + power[k] + power[k + 1] - 3 * around) / total;
+  }
+  if (best > most && share > kMaterial)
+    out.push_back({channel, static_cast<double>(at) / (static_cast<double>(length) * h), best, share});
+}
+
+}  // namespace
+
+std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const FlightFit& fit) {
+  std::vector<SpectralLine> out;
+  const auto residuals = fit.smoother->residuals();
+  const auto& places = fit.smoother->chunks();
+  const auto& states = fit.smoother->states();
+  for (int channel = 0; channel < kChannels; ++channel) {
+    Pieces pieces(record.arcs.size());
+    double seconds = 0, samples = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
+      for (std::size_t i = 0; i < places[k].end - places[k].begin; ++i) {
+        const double r = residuals[k][i * kChannels + static_cast<std::size_t>(channel)];
+        if (std::isfinite(r))
+          pieces[static_cast<std::size_t>(places[k].arc)].push_back(std::clamp(r, -6.0, 6.0));
+      }
+      seconds += arc.t[places[k].end] - arc.t[places[k].begin];
+    }
+    for (const auto& piece : pieces) samples += static_cast<double>(piece.size());
+    if (samples > 512) look_for_line(channel_name(channel), pieces, seconds / samples, out);
+  }
+  static constexpr std::array names = {"Mx", "My", "Mz", "Fx", "Fy", "Fz"};
+  for (int axis = 0; axis < 6; ++axis) {
+    Pieces pieces(record.arcs.size());
+    double seconds = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
+      const Disturbance<double>& air = states[k].outside;
+      pieces[static_cast<std::size_t>(places[k].arc)].push_back(axis < 3 ? air.w_dot_B[axis]
+                                                                         : air.v_dot_W[axis - 3]);
+      seconds += arc.t[places[k].end] - arc.t[places[k].begin];
+    }
+    look_for_line(names[static_cast<std::size_t>(axis)], pieces, seconds / static_cast<double>(places.size()),
+                  out);
+  }
+  std::ranges::sort(out, std::greater<>(), &SpectralLine::height);
+  return out;
+}
+
+}  // namespace ident
