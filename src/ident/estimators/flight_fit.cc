@@ -147,7 +147,10 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
   ReducedSystem system;
   SteppedProblem problem;
   problem.residuals = 2 * n + 1;
-  problem.tolerance = tolerance;
+  double samples = 1;
+  for (const FlightArc& arc : smoother.record().arcs)
+    samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
+  problem.tolerance = tolerance / samples;  // the cost is about one a sample
   problem.max_steps = max_steps;
   problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
     if (last.size() == 0 || u != last) {
@@ -190,7 +193,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 1);
-  u = minimise_shared(*smoother, u, 1e-2, 2, &fit.steps);
+  u = minimise_shared(*smoother, u, 1.0, 2, &fit.steps);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
@@ -204,7 +207,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       smoother->set_huber(options.robust ? kHuber : 1e9);
       smoother->settle(u, 1);
     }
-    u = minimise_shared(*smoother, u, 1e-3, 1, &fit.steps);
+    u = minimise_shared(*smoother, u, 0.1, 1, &fit.steps);
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
     if (change < 0.03) break;
   }

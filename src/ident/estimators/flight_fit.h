@@ -16,7 +16,7 @@ struct FlightFitOptions {
   int noise_rounds = 6;
   bool robust = true;          ///< count gross errors linearly
   double block_seconds = 2.0;  ///< of the sandwich covariance
-  double tolerance = 1e-9;
+  double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
   int threads = 0;
   std::function<void(double)> progress;  ///< share done
 };

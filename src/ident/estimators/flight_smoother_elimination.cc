@@ -92,7 +92,7 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
                rows = static_cast<double>(places_[k].end - places_[k].begin);
   const auto floor = [&](int channel, double otherwise) {
     const auto c = static_cast<std::size_t>(channel);
-    const double s = record_->sigma[c] < 1.0 ? noise_.sigma[c] : otherwise;
+    const double s = record_->sigma[c] != 1.0 ? noise_.sigma[c] : otherwise;  // 1: not measured
     return 1e-5 * s * s / rows;
   };
   VectorXd W(layout.size);
@@ -111,7 +111,7 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   wanders(layout.w_dot, noise_.w_dot), wanders(layout.v_dot, noise_.v_dot);
   const double omega_m = theta_->p(trial_u_)[param::omega_m];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
-    const double f = noise_.q_motor * h + floor(kRotorChannel + n, 1.0);
+    const double f = noise_.q_motor * h + floor(kRotorChannel + n, 5.0);
     W[layout.motors + n] = 1.0 / f;
     W[layout.motors + layout.rotors + n] = 1.0 / (f * omega_m * omega_m);
   }
@@ -169,10 +169,11 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     }
     carry.on = places_[k].linked;
     if (carry.on) add_link(k, D, B, f, U, carry, sum);
-    // Scaled, and with a trace of damping for states that nothing measures.
+    // Scaled. A trace of damping for states that nothing measures, more of it where no link follows: any more
+    // would pass for information on the constants that move such states.
     const VectorXd s = D.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     MatrixXd scaled = s.asDiagonal() * D * s.asDiagonal();
-    scaled.diagonal().array() += 1e-12;
+    scaled.diagonal().array() += carry.on ? 1e-15 : 1e-10;
     const Eigen::LLT<MatrixXd> llt(scaled);
     const Index c = carry.on ? n : 0;
     MatrixXd right(n, c + m + 1);

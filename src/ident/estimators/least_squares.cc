@@ -148,7 +148,7 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   options.linear_solver_type = ceres::DENSE_QR;
   options.initial_trust_region_radius = problem.initial_radius;
   options.function_tolerance = problem.tolerance;
-  options.parameter_tolerance = problem.tolerance;
+  options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
   options.max_num_iterations = problem.max_steps;
   options.logging_type = ceres::SILENT;

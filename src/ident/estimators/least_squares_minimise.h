@@ -28,7 +28,7 @@ Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& star
 struct SteppedProblem {
   Eigen::Index residuals = 0;
   ResidualFunction evaluate;  ///< in unconstrained coordinates; `J` null for a trial step
-  double tolerance = 1e-9;    ///< relative change of the cost, and of the unknowns
+  double tolerance = 1e-9;    ///< relative change of the cost
   int max_steps = 30;
   double initial_radius = 1e4;
 };

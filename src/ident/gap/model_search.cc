@@ -68,7 +68,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     if (options.progress) options.progress(share, what);
   };
   FlightFitOptions fit;
-  fit.tolerance = 1e-4;
+  fit.tolerance = 0.02;
   fit.noise_rounds = 4;
   tell(0.0, "the model as it is");
   std::vector<FreeConstant> base = free_constants(vehicle, p);
