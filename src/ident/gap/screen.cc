@@ -21,7 +21,11 @@ Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
                const std::vector<std::pair<int, double>>& fixed, const std::vector<int>& without_prior) {
   const Eigen::Index n = f.g.size();
   VectorXd info = f.prior_info, g = f.g + f.prior_g;
-  for (const int i : without_prior) info[i] *= 1e-4, g[i] -= f.prior_g[i] * (1 - 1e-4);
+  double waived = 0;  // what the priors that are dropped cost where the form stands
+  for (const int i : without_prior) {
+    waived += (1 - 1e-4) * f.prior_g[i] * f.prior_g[i] / f.prior_info[i];
+    info[i] *= 1e-4, g[i] -= f.prior_g[i] * (1 - 1e-4);
+  }
   VectorXd d = VectorXd::Zero(n);
   for (const auto& [i, x] : fixed) d[i] = x;
   const VectorXd Hd = f.S * d + info.cwiseProduct(d);
@@ -41,7 +45,7 @@ Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
   Solved out;
   for (Eigen::Index a = 0; a < m; ++a) d[free[static_cast<std::size_t>(a)]] = x[a];
   out.step = d;
-  out.drop = -(2 * g.dot(d) + d.dot(f.S * d) + info.cwiseProduct(d).dot(d));
+  out.drop = waived - (2 * g.dot(d) + d.dot(f.S * d) + info.cwiseProduct(d).dot(d));
   return out;
 }
 
