@@ -16,26 +16,33 @@ namespace {
 // Gusts are not slower than this, s: what stays longer is a cause to be found, not noise.
 constexpr double kSlowest = 4.0;
 
-// Second moments of a Gauss-Markov process over all links: expectations given the data.
+// Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown.
 struct ProcessMoments {
-  double now = 0, next = 0, cross = 0, seconds = 0, count = 0;
+  double now = 0, next = 0, cross = 0, P_now = 0, P_next = 0, P_cross = 0, seconds = 0, count = 0;
 
   void add(double x, double y, double P_x, double P_y, double C, double h) {
-    now += x * x + P_x, next += y * y + P_y, cross += x * y + C;
+    now += x * x, next += y * y, cross += x * y;
+    P_now += P_x, P_next += P_y, P_cross += C;
     seconds += h, count += 1;
   }
 
-  /// The process of these moments, one step beyond the fixed-point step; relative change of sigma.
+  /// The time by expectation maximisation, sigma by MacKay's fixed point: squared innovations over the number
+  /// of them that the data determine. Gives the relative change of sigma.
   double update(ColouredNoise& noise) const {
     if (count < 8 || noise.sigma <= 0) return 0;
-    const double h = seconds / count;
-    const double share = std::clamp(cross / std::max(0.5 * (now + next), 1e-300), 0.01, 0.998);
-    const double tau = std::clamp(-h / std::log(share), 0.3 * h, kSlowest);
-    const double ratio = std::sqrt(0.5 * (now + next) / count) / noise.sigma;
-    noise.sigma *= std::clamp(std::pow(ratio, 1.8), 0.1, 10.0);
-    noise.tau *= std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0);
-    noise.tau = std::clamp(noise.tau, 0.3 * h, kSlowest);
-    return std::abs(ratio - 1);
+    const double h = seconds / count, share = noise.carried(h);
+    const auto innovations = [&](double x, double y, double c) {
+      return (y - 2 * share * c + share * share * x) / (1 - share * share);
+    };
+    const double variance = noise.sigma * noise.sigma;
+    const double determined = std::max(count - innovations(P_now, P_next, P_cross) / variance, 0.01 * count);
+    const double ratio = std::clamp(innovations(now, next, cross) / determined / variance, 0.02, 50.0);
+    const double carried = std::clamp((cross + P_cross) / (0.5 * (now + P_now + next + P_next)), 0.01, 0.998);
+    const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
+    noise.sigma *= std::sqrt(ratio);
+    noise.tau =
+        std::clamp(noise.tau * std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0), 0.3 * h, kSlowest);
+    return std::abs(std::sqrt(ratio) - 1);
   }
 };
 

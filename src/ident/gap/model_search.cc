@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <cstdio>
-#include <tuple>
 
 namespace ident {
 namespace {
@@ -94,7 +92,6 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
                               [&](const Candidate& a) { return same(a, out.problem.candidates[c]); }))
         have.push_back(static_cast<int>(c));
     const SetGain now = gain_of(out.form, out.problem, have);
-    std::vector<std::tuple<double,double,std::string>> dbg;
     struct Passed {
       int candidate;
       double gain, own, stretch;
@@ -108,12 +105,9 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       const double own = set.degrees - now.degrees,
                    stretch = own_stretch(out.form, out.problem.candidates[c]);
       const double gain = set.gain - now.gain;
-      dbg.emplace_back(gain, stretch, described(out.problem.candidates[c])+(set.physical?"":"!"));
       if (set.physical && own >= 1 && gain / stretch > kLeastGain + kPerDirection * own)
         passed.push_back({static_cast<int>(c), gain, own, stretch});
     }
-    std::ranges::sort(dbg, std::greater<>());
-    for (size_t i=0;i<8&&i<dbg.size();++i) fprintf(stderr,"STEP %d %-28s gain %.1f stretch %.2f\n",step,std::get<2>(dbg[i]).c_str(),std::get<0>(dbg[i]),std::get<1>(dbg[i]));
     int best = -1;
     double best_gain = 0;
     if (!passed.empty()) {
@@ -204,7 +198,6 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       if (out.best.adopted.empty())
         stretch =
             std::max(stretch, own_stretch(out.form, out.problem.candidates[static_cast<std::size_t>(c)]));
-    { std::string nm; for (int c: members) nm += described(out.problem.candidates[c])+" "; if (evidence(set,stretch)>-20) fprintf(stderr,"SET %-60s gain %.1f dof %.0f stretch %.2f ev %.1f\n",nm.c_str(),set.gain,set.degrees,stretch,evidence(set,stretch)); }
     out.sets.push_back({members, evidence(set, stretch), 0.0});
     top = std::max(top, out.sets.back().log_evidence);
   }
