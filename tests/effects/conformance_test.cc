@@ -177,7 +177,7 @@ TEST_P(Effect, HasFiniteDerivativesAtRestWithRotorsOff) {
       seeds[i]->seed(0);
       for (const D& value : seen(dual, mask(), x, 1))
         EXPECT_TRUE(std::isfinite(value.v) && std::isfinite(value.derivative(0))) << at << ", seed " << i;
-      seeds[i]->zero();
+      *seeds[i] = D(seeds[i]->v);
     }
   };
   std::vector<double> p = null();
