@@ -55,7 +55,7 @@ MatrixXd inverse_of(const MatrixXd& M) {
   return s.asDiagonal() * inverse * s.asDiagonal();
 }
 
-// Sandwich over blocks of time, never below the naive covariance in any unknown.
+// Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
 MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
   const double n = static_cast<double>(fit.blocks.size());
   if (n < 8) return fit.naive_covariance;
@@ -66,8 +66,13 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
     meat.noalias() += (block.score - mean) * (block.score - mean).transpose();
   meat = meat * (n / (n - 1)) + prior;
   const MatrixXd sandwich = fit.naive_covariance * meat * fit.naive_covariance;
-  const VectorXd stretch =
-      sandwich.diagonal().cwiseQuotient(fit.naive_covariance.diagonal()).cwiseMax(1.0).cwiseSqrt();
+  // Nothing is known worse with the flight than without it.
+  const VectorXd most = prior.diagonal().cwiseProduct(fit.naive_covariance.diagonal()).cwiseInverse();
+  const VectorXd stretch = sandwich.diagonal()
+                               .cwiseQuotient(fit.naive_covariance.diagonal())
+                               .cwiseMin(most)
+                               .cwiseMax(1.0)
+                               .cwiseSqrt();
   return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
 }
 

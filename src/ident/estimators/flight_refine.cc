@@ -133,11 +133,12 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       p.prior_value = c.prior_value, p.prior_std = *c.prior_std;
       const double ratio = std::min(*p.naive_std / *c.prior_std, 1.0);
       p.from_flight = 1 - ratio * ratio;
-      // The pull compares the two sources of information, the flight's share of it being independent of the
-      // prior.
-      p.pull = (p.value - c.prior_value) /
-               std::sqrt(std::max(*c.prior_std * *c.prior_std - *p.naive_std * *p.naive_std,
-                                  1e-4 * *c.prior_std * *c.prior_std));
+      // The pull compares the two sources of information: what the flight alone would say (naive variance v,
+      // in truth `colour` times that) with what was stated. The estimate moves by a share of their
+      // difference.
+      const double stated = *c.prior_std * *c.prior_std, share = std::max(1 - ratio * ratio, 1e-4);
+      const double alone = stated * (1 - share) / share, colour = std::pow(p.std / *p.naive_std, 2);
+      p.pull = (p.value - c.prior_value) / (share * std::sqrt(stated + colour * alone));
       p.identifiable = p.std < 0.5 * *c.prior_std;
     } else {
       p.from_flight = 1.0;

@@ -169,12 +169,15 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     }
     carry.on = places_[k].linked;
     if (carry.on) add_link(k, D, B, f, U, carry, sum);
-    // Scaled. A trace of damping for states that nothing measures, more of it where no link follows: any more
-    // would pass for information on the constants that move such states.
+    // Scaled. Damping only for states that nothing at all determines: it would pass for information on the
+    // constants that move them.
     const VectorXd s = D.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     MatrixXd scaled = s.asDiagonal() * D * s.asDiagonal();
-    scaled.diagonal().array() += carry.on ? 1e-15 : 1e-10;
-    const Eigen::LLT<MatrixXd> llt(scaled);
+    Eigen::LLT<MatrixXd> llt(scaled);
+    if (llt.info() != Eigen::Success) {
+      scaled.diagonal().array() += 1e-10;
+      llt.compute(scaled);
+    }
     const Index c = carry.on ? n : 0;
     MatrixXd right(n, c + m + 1);
     if (carry.on) right.leftCols(n) = s.asDiagonal() * U;
