@@ -62,9 +62,17 @@ def style():
     """Plots as in the reports: measured grey and thin, under what is predicted."""
     import matplotlib.pyplot as plt
 
-    plt.rcParams.update({"figure.figsize": (8, 3), "figure.dpi": 80, "axes.grid": True, "grid.color": "#e8ebee",
-                         "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
-                         "axes.prop_cycle": plt.cycler(color=["#0b6bb0", "#c2500a", "#00785a", "#9c3f7d"])})
+    plt.rcParams.update({
+        "figure.figsize": (8, 3),
+        "figure.dpi": 80,
+        "figure.constrained_layout.use": True,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.prop_cycle": plt.cycler(color=["#0b6bb0", "#c2500a", "#00785a", "#9c3f7d"]),
+        "grid.color": "#e8ebee",
+    })
     return plt
 
 
