@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
 
@@ -110,6 +111,27 @@ void prepare_log(SweepRows& rows, double step) {
   rows.filled = fill_gaps(rows.Omega, rows.place, 5.0 * step);
 }
 
+/// Largest less smallest of the values in a window that moves forwards; gaps in the values do not count.
+class MovingRange {
+ public:
+  explicit MovingRange(const std::vector<double>& values) : values_(values) {}
+  void take_in(std::size_t i) {
+    if (!std::isfinite(values_[i])) return;
+    while (!low_.empty() && values_[low_.back()] >= values_[i]) low_.pop_back();
+    while (!high_.empty() && values_[high_.back()] <= values_[i]) high_.pop_back();
+    low_.push_back(i), high_.push_back(i);
+  }
+  void drop_before(std::size_t first) {
+    while (!low_.empty() && low_.front() < first) low_.pop_front();
+    while (!high_.empty() && high_.front() < first) high_.pop_front();
+  }
+  double span() const { return low_.empty() ? 0.0 : values_[high_.front()] - values_[low_.front()]; }
+
+ private:
+  const std::vector<double>& values_;
+  std::deque<std::size_t> low_, high_;  // candidates for the extremes, in order
+};
+
 }  // namespace
 
 SweepRows sweep_rows(const NumberTable& table, const std::optional<CommandRange>& command,
@@ -152,19 +174,14 @@ void number_dwells(SweepRows& rows, double settle) {
   rows.set_point.assign(rows.size(), -1);
   rows.set_points = 0;
   double start = kNaN;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  MovingRange range(rows.Omega);
+  for (std::size_t i = 0, behind = 0, beyond = 0; i < rows.size(); ++i) {
+    while (beyond < rows.size() && (beyond <= i || rows.place[beyond] <= rows.place[i] + ahead))
+      range.take_in(beyond++);
+    while (rows.place[behind] < rows.place[i] - settle) ++behind;
+    range.drop_before(behind);
     if (!std::isfinite(rows.Omega[i])) continue;
-    double low = rows.Omega[i], high = low;
-    for (std::size_t k = i; k-- > 0 && rows.place[k] >= rows.place[i] - settle && high - low <= tolerance;) {
-      low = std::fmin(low, rows.Omega[k]);
-      high = std::fmax(high, rows.Omega[k]);
-    }
-    for (std::size_t k = i + 1;
-         k < rows.size() && rows.place[k] <= rows.place[i] + ahead && high - low <= tolerance; ++k) {
-      low = std::fmin(low, rows.Omega[k]);
-      high = std::fmax(high, rows.Omega[k]);
-    }
-    const bool steady = high - low <= tolerance && rows.place[i] - rows.place.front() >= settle;
+    const bool steady = range.span() <= tolerance && rows.place[i] - rows.place.front() >= settle;
     if (!steady) {
       start = kNaN;
       continue;

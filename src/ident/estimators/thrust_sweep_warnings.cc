@@ -96,8 +96,8 @@ void about_speeds(const SweepFile& file, Sayer& say) {
   if (!file.points.thrust.rest.empty()) speeds.push_back(0.0);
   std::ranges::sort(speeds);
   int different = 1;
-  for (std::size_t i = 1; i < speeds.size(); ++i)
-    different += speeds[i] - speeds[i - 1] > 0.02 * speeds.back();
+  for (double last = speeds.front(); const double speed : speeds)
+    if (speed - last > 0.02 * speeds.back()) ++different, last = speed;
   if (different < 3)
     say("few_speeds",
         "only {} different speeds: tare and k Omega^2 fit such data whatever the law is. Take five or more",
