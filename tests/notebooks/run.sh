@@ -9,7 +9,9 @@ if [ "${1:-}" = --update ]; then
   shift
 fi
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(01_from_bench_to_model 02_refine_and_verify 03_reading_a_gap 04_accuracy)
+if [ ${#names[@]} = 0 ]; then
+  for notebook in "$here"/*.ipynb; do names+=("$(basename "$notebook" .ipynb)"); done
+fi
 if ! /usr/bin/python3 -c 'import nbconvert, ipykernel, matplotlib' 2>/dev/null; then
   echo "jupyter-nbconvert, python3-ipykernel or python3-matplotlib is not installed (tests/run.sh installs them)"
   exit 77
