@@ -10,6 +10,7 @@ struct Options {
   FlightOptions flight;
   bool refine = false;
   std::vector<std::string> free;
+  int bootstrap = 0;
   double horizon = 1.0;
 };
 
@@ -35,6 +36,7 @@ Outcome run(const Options& options, Context& context) {
   Progress progress("refining");
   RefineOptions refine;
   refine.free = options.free;
+  refine.bootstrap = options.bootstrap;
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
   verify_too(result, input, options.horizon);
@@ -53,6 +55,10 @@ Action flightlog_command(CLI::App& cli) {
   cli.add_option("--free", options->free, "further parameters to estimate")
       ->delimiter(',')
       ->type_name("NAME,...");
+  cli.add_option("--bootstrap", options->bootstrap,
+                 "intervals from that many block bootstraps (50 or more) in place of the sandwich")
+      ->check(CLI::Range(50, 100000))
+      ->type_name("N");
   cli.add_option("--horizon", options->horizon, "length of the simulated windows, s")
       ->check(CLI::Range(0.02, 60.0))
       ->type_name("SECONDS");

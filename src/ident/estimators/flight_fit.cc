@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/core/random.h"
 #include "ident/estimators/least_squares_minimise.h"
 
 namespace ident {
@@ -241,6 +242,26 @@ VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
   for (const ScoreBlock& block : fit.blocks)
     if (take(block)) H += block.information, g += block.score;
   return fit.u - inverse_of(H) * g;
+}
+
+MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws) {
+  const PriorTerms prior = theta.prior(fit.u);
+  const MatrixXd own = prior_information(theta, fit.u);
+  const auto n = static_cast<int>(fit.blocks.size());
+  Random random(20240229);
+  MatrixXd sum = MatrixXd::Zero(own.rows(), own.cols());
+  for (int draw = 0; draw < draws; ++draw) {
+    MatrixXd H = own;
+    VectorXd g = prior.slope.cwiseProduct(prior.residual);
+    for (Eigen::Index i = 0; i < g.size(); ++i) g[i] += prior.slope[i] * random.normal();
+    for (int b = 0; b < n; ++b) {
+      const ScoreBlock& block = fit.blocks[static_cast<std::size_t>(random.below(n))];
+      H += block.information, g += block.score;
+    }
+    const VectorXd step = inverse_of(H) * g;
+    sum.noalias() += step * step.transpose() / draws;
+  }
+  return sum;
 }
 
 }  // namespace ident

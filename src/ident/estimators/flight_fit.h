@@ -42,6 +42,10 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
 Eigen::VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
                               const std::function<bool(const ScoreBlock&)>& take);
 
+/// Covariance of u from `draws` block bootstraps: blocks drawn with repetition, one Newton step from the fit
+/// for each draw; what the priors say is drawn anew with them. Seeded.
+Eigen::MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws);
+
 /// The shared unknowns alone, states and noise as they are: Ceres over `smoother` from `u`.
 Eigen::VectorXd minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& u, double tolerance,
                                 int max_steps, int* steps = nullptr, double* cost = nullptr);

@@ -8,6 +8,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_command_offset.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -24,7 +25,8 @@ double mean_of_used(const std::vector<double>& column) {
 
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   for (const Parameter& p : result.parameters) {
-    if (p.pull && std::abs(*p.pull) > 3) {
+    const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
+    if (p.pull && heard && std::abs(*p.pull) > 3) {
       result.warn(
           "prior_disagrees",
           fmt::format(
@@ -44,6 +46,11 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
       text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
     result.warn("not_identifiable", text);
   }
+}
+
+std::vector<std::string> with_command_offset(std::vector<std::string> names) {
+  names.push_back("Omega_0");
+  return names;
 }
 
 nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
@@ -214,10 +221,21 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
       return c.index == param::km || c.index == param::omega_m || c.index == param::zeta_m ||
              c.index == param::dead_time || c.index == param::Omega_0;
     });
-  const Theta theta(p, constants, record.logs, record.signals.rates);
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
-  const FlightFit fit = fit_flight(record, theta, fit_options);
+  auto free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
+  FlightFit fit = fit_flight(record, *free, fit_options);
+  if (needs_command_offset(vehicle, record, *free, fit)) {
+    result.warn(
+        "command_offset",
+        "the rotors' speed is not proportional to the command: Omega_0, their speed at command 0 as the "
+        "line through the flown commands gives it, is estimated too");
+    constants = free_constants(vehicle, p, with_command_offset(options.free));
+    free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
+    fit = fit_flight(record, *free, fit_options);
+  }
+  const Theta& theta = *free;
+  if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   result.parameters = flight_parameters(theta, fit, "flightlog");
   warn_about(result, theta, fit);
   result.fit["seconds"] = record.duration;

@@ -15,7 +15,7 @@ namespace ident {
 struct RefineOptions {
   std::vector<std::string> free;  ///< further constants to estimate, by name
   bool validate = true;           ///< prediction error on held-out flight, before and after
-  int bootstrap = 0;              ///< block bootstrap draws instead of the sandwich; 0: none
+  int bootstrap = 0;              ///< draws of a block bootstrap in place of the sandwich; 0: none
   std::function<void(double)> progress;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 // Log prior odds against each further cause, and the price of a direction (half the log of the effective
 // sample).
-constexpr double kOddsAgainst = 3.5;
+constexpr double kOddsAgainst = 7.0;
 constexpr double kPricePerDirection = 2.5;
 // A cause has to explain this much, in units of the noise, to be adopted: 1 % family-wise over the catalogue.
 constexpr double kLeastGain = 19.0;
