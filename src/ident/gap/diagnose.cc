@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kMostlyClosed = 0.5;
 // A generic rival that gains this much on held-out flight has seen something, and that share of what the
 // causes explain is too much for a catalogue that should be enough.
-constexpr double kRivalGain = 25.0;
+constexpr double kRivalGain = 45.0;
 constexpr double kRivalShare = 0.25;
 constexpr double kSure = 0.8;
 
@@ -270,6 +270,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Json left = Json::object();
   for (std::size_t c = 0; c < 6; ++c) left[before.names[c]] = rival.gain[c];
   result.extra["generic_rival"] = left;
+  Json scatter = Json::object();
+  for (const Candidate& c : search.best.adopted) scatter[described(c)] = search.scatter_of(c);
+  result.extra["scatter"] = scatter;
   Json narrow = Json::array();
   for (const SpectralLine& line : lines)
     narrow.push_back(

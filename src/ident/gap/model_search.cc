@@ -61,6 +61,12 @@ double SearchResult::probability_of(const std::string& name) const {
   return std::min(sum, 1.0);
 }
 
+double SearchResult::scatter_of(const Candidate& adopted) const {
+  for (const Candidate& c : problem.candidates)
+    if (same(c, adopted)) return own_stretch(form, c);
+  return 1.0;
+}
+
 SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
                            const SearchOptions& options) {
   SearchResult out;
