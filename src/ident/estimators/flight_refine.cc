@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_command_offset.h"
+#include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -215,6 +216,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
   }
   result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
+  const std::vector<Warning> tested = self_test(record, logs, vehicle, p);
+  result.warnings.insert(result.warnings.end(), tested.begin(), tested.end());
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
   if (!record.signals.commands)
     std::erase_if(constants, [](const FreeConstant& c) {
@@ -279,6 +282,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   for (const Parameter& q : result.parameters) known += q.identifiable;
   result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight.", known,
                                result.parameters.size(), record.duration);
+  if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;
 }
 

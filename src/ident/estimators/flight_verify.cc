@@ -6,6 +6,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_self_test.h"
 
 namespace ident {
 namespace {
@@ -34,6 +35,8 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
     result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
   }
   result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
+  const std::vector<Warning> tested = self_test(record, logs, vehicle, p);
+  result.warnings.insert(result.warnings.end(), tested.begin(), tested.end());
   const Theta theta(p, {}, record.logs, record.signals.rates);
   // States at the start of every window, from the log itself; the constants stay as stated.
   const NoiseModel noise = initial_noise(record);
@@ -106,6 +109,7 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   result.verdict =
       fmt::format("The model as stated was run against {:.0f} s of flight in windows of {:.2g} s.",
                   record.duration, horizon);
+  if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_prediction.h"
+#include "ident/estimators/flight_self_test.h"
 #include "ident/gap/gap_sections.h"
 #include "ident/gap/generic_rival.h"
 #include "ident/gap/model_search.h"
@@ -212,6 +213,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
   }
   result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
+  const std::vector<Warning> tested = self_test(record, logs, vehicle, p);
+  result.warnings.insert(result.warnings.end(), tested.begin(), tested.end());
   SearchOptions search_options{options.exclude, options.most_causes, options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);
   if (options.progress) options.progress(0.9, "held-out flight");
@@ -253,7 +256,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                         {"closed_ci95", {number(one.ci95[0]), number(one.ci95[1])}}});
   }
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
-  const Judged verdict = judge(search, gap, rival, lines);
+  Judged verdict = judge(search, gap, rival, lines);
+  const std::string wrong = disqualified(tested);
+  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
                              {"confused_with", verdict.confused_with},
@@ -283,6 +288,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.extra["search"] = steps;
   result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
   result.verdict = verdict.sentence;
+  if (!wrong.empty()) distrust(result, wrong);
   result.sections = gap_sections(result.extra, before, after);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise));
   out.adopted = adopted_vehicle(vehicle, search.best);

@@ -1,0 +1,83 @@
+// Running means, changes over windows and clipped correlations.
+#include "ident/estimators/flight_changes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/statistics.h"
+
+namespace ident {
+namespace {
+
+constexpr double kLongestShift = 0.06;  ///< s by which streams of one log may be apart
+
+void clip(Track& x) {
+  const double low = quantile(x, 0.005), high = quantile(x, 0.995);
+  for (double& v : x) v = std::clamp(v, low, high);
+}
+
+}  // namespace
+
+ChangeWindows change_windows(double lag, double interval) {
+  const auto rows = [&](double s) {
+    return static_cast<std::size_t>(std::max(1.0, std::round(s / std::max(interval, 1e-6))));
+  };
+  return {rows(lag), rows(lag / 3), rows(lag / 2), rows(kLongestShift)};
+}
+
+Track changes(const Track& x, const ChangeWindows& w, long shift) {
+  Track out, sum(x.size() + 1, 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
+  const double n = static_cast<double>(w.width);
+  for (std::size_t i = w.margin; i + w.lag + w.width + w.margin <= x.size(); i += w.stride) {
+    const auto a = static_cast<std::size_t>(static_cast<long>(i) - shift), b = a + w.lag;
+    out.push_back((sum[b + w.width] - sum[b] - sum[a + w.width] + sum[a]) / n);
+  }
+  return out;
+}
+
+Track integral(const std::vector<double>& t, const Track& y) {
+  Track out(y.size(), 0.0);
+  for (std::size_t i = 1; i < y.size(); ++i)
+    out[i] = out[i - 1] + 0.5 * (t[i] - t[i - 1]) * (y[i] + y[i - 1]);
+  return out;
+}
+
+Track channel_track(const FlightArc& arc, int channel) {
+  Track out(arc.rows());
+  double last = kNaN;
+  bool any = false;
+  for (std::size_t i = 0; i < arc.rows(); ++i) {
+    const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+    if (std::isfinite(y)) any = true, last = y;
+    out[i] = last;
+  }
+  if (!any) return {};
+  const auto first = std::ranges::find_if(out, [](double y) { return std::isfinite(y); });
+  std::fill(out.begin(), first, *first);
+  return out;
+}
+
+double clipped_correlation(Track a, Track b) {
+  if (a.size() < 3) return 0.0;
+  clip(a), clip(b);
+  const double ma = mean(a), mb = mean(b);
+  double aa = 0, bb = 0, ab = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    aa += (a[i] - ma) * (a[i] - ma), bb += (b[i] - mb) * (b[i] - mb), ab += (a[i] - ma) * (b[i] - mb);
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+Eigen::Matrix3d correlations(const Track3& seen, const Track3& told) {
+  Eigen::Matrix3d c;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      c(i, k) = clipped_correlation(seen[static_cast<std::size_t>(i)], told[static_cast<std::size_t>(k)]);
+  return c;
+}
+
+void append(Track3& a, const Track3& b) {
+  for (std::size_t k = 0; k < 3; ++k) a[k].insert(a[k].end(), b[k].begin(), b[k].end());
+}
+
+}  // namespace ident

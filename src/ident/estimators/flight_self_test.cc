@@ -1,0 +1,108 @@
+// The self-test of a log: frames and motor order first, then whether there is enough in it.
+#include "ident/estimators/flight_self_test.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+constexpr double kShortest = 15.0;        ///< s of flight
+constexpr double kSlowest = 1.0 / 49.0;   ///< s between rows
+constexpr double kSaturatedShare = 0.02;  ///< of the rows
+constexpr double kToTell = 10.0;          ///< standard errors of a slope: an inertia to 10 %
+constexpr double kSteadyThrust = 0.01;    ///< spread over mean
+
+void test_excitation(const RotorAgreement& rotors, std::vector<Warning>& findings) {
+  if (rotors.windows == 0) return;
+  constexpr std::array names = {"roll", "pitch", "yaw"};
+  std::vector<std::string> still;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double r = std::abs(rotors.correlation[k]);
+    if (r * std::sqrt(rotors.windows) < kToTell * std::sqrt(1 - r * r)) still.emplace_back(names[k]);
+  }
+  if (still.size() == 3 && rotors.thrust_variation < kSteadyThrust)
+    findings.push_back(
+        {"hover_only",
+         "rates and commands vary so little that neither inertia nor motor constants can be told: "
+         "fly doublets or a multisine about every axis, 20 s or more"});
+  else if (!still.empty())
+    findings.push_back({"no_excitation",
+                        fmt::format("{}: the commands hardly turn the vehicle about it: its inertia and what "
+                                    "acts about it cannot be told; add doublets or a multisine there",
+                                    fmt::join(still, ", "))});
+}
+
+/// Rows in flight of which a command stands at its limit.
+double saturated_share(const FlightRecord& record, std::span<const FlightLog> logs) {
+  double rows = 0, limited = 0;
+  for (const FlightArc& arc : record.arcs) {
+    const FlightLog& log = logs[static_cast<std::size_t>(arc.log)];
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      if (log.t[i] < arc.t.front() || log.t[i] > arc.t.back()) continue;
+      rows += 1;
+      limited += std::ranges::any_of(log.delta, [&](const std::vector<double>& column) {
+        return column[i] >= 0.999 || column[i] <= 0.001;
+      });
+    }
+  }
+  return rows > 0 ? limited / rows : 0.0;
+}
+
+void test_health(const FlightRecord& record, std::span<const FlightLog> logs,
+                 std::vector<Warning>& findings) {
+  if (const double share = saturated_share(record, logs); share > kSaturatedShare)
+    findings.push_back(
+        {"saturated_commands",
+         fmt::format(
+             "in {:.0f} % of the rows a command stands at its limit: what the motors get there may be "
+             "less than what was logged; fly more gently or lighter",
+             100 * share)});
+  if (record.duration < kShortest)
+    findings.push_back(
+        {"short_log", fmt::format("{:.1f} s in flight: too short for good intervals; 40 s or more "
+                                  "are worth having",
+                                  record.duration)});
+  if (record.interval > kSlowest)
+    findings.push_back(
+        {"low_rate", fmt::format("rows come at {:.3g} Hz: motor lag and fast turns pass between "
+                                 "them; log at 100 Hz or more",
+                                 1 / record.interval)});
+}
+
+}  // namespace
+
+std::vector<Warning> self_test(const FlightRecord& record, std::span<const FlightLog> logs,
+                               const Vehicle& vehicle, std::span<const double> p) {
+  const SensorFrames frames = test_sensor_frames(record, vehicle.g);
+  std::vector<Warning> findings = frames.findings;
+  // Rotors are judged by the rates: only where those are not in doubt already.
+  if (findings.empty()) {
+    const RotorAgreement rotors = test_rotors(record, vehicle, p, frames.rates_confirmed);
+    findings = rotors.findings;
+    if (findings.empty()) test_excitation(rotors, findings);
+  }
+  test_health(record, logs, findings);
+  return findings;
+}
+
+std::string disqualified(const std::vector<Warning>& warnings) {
+  for (const Warning& w : warnings)
+    for (const char* code : {"wrong_frame", "sign_flipped", "axes_swapped", "motor_order"})
+      if (w.code == code)
+        return w.code + ": " + w.message + ". Until that is put right no number of this log can be trusted.";
+  return {};
+}
+
+void distrust(Result& result, const std::string& wrong) {
+  for (Parameter& parameter : result.parameters) {
+    parameter.identifiable = false;
+    parameter.note = wrong;
+  }
+  result.verdict = wrong;
+}
+
+}  // namespace ident

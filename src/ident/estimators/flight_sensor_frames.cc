@@ -1,0 +1,255 @@
+// Do the sensors of a log agree with each other and with gravity? Each contradiction names its axis.
+//
+//   integral of w over a window    = turn of the attitude, body axes                                    (1)
+//   integral of R_WB f + g         = change of velocity, world axes                                     (2)
+//   integral of v                  = change of position                                                 (3)
+//   mean of f                      = R_WB^T (change of velocity / window - g), body axes                (4)
+//
+// The median of f itself points up, -g along z: a multirotor carries its weight by thrust along -z.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "ident/estimators/flight_changes.h"
+#include "ident/estimators/flight_self_test.h"
+#include "ident/estimators/statistics.h"
+
+namespace ident {
+namespace {
+
+constexpr double kAgainst = -0.7;        ///< correlation at which an axis runs backwards
+constexpr double kOther = 0.75;          ///< correlation with another axis that makes it that axis
+constexpr double kOwn = 0.45;            ///< correlation with its own axis below which it is not its own
+constexpr std::size_t kFewWindows = 40;  ///< too few to judge
+
+struct Pairs {
+  Track3 seen, told;
+};
+using MakePairs = std::function<Pairs(const FlightArc&, const ChangeWindows&, long shift)>;
+
+/// Over all arcs, at the shift between the two streams at which they are most alike.
+struct Agreement {
+  Eigen::Matrix3d c = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();  ///< of seen on told
+};
+
+Agreement agreement(const FlightRecord& record, double lag, const MakePairs& make) {
+  const ChangeWindows windows = change_windows(lag, record.interval);
+  Agreement best;
+  for (long step = -2; step <= 2; ++step) {
+    Pairs all;
+    for (const FlightArc& arc : record.arcs) {
+      if (arc.rows() < 2) continue;
+      const Pairs one = make(arc, windows, step * static_cast<long>(windows.margin) / 2);
+      append(all.seen, one.seen), append(all.told, one.told);
+    }
+    if (all.seen[0].size() < kFewWindows) return best;
+    const Eigen::Matrix3d c = correlations(all.seen, all.told);
+    if (c.norm() <= best.c.norm()) continue;
+    best.c = c;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double told = mad_scale(all.told[k]);
+      const auto i = static_cast<Eigen::Index>(k);
+      best.slope[i] = told > 0 ? c(i, i) * mad_scale(all.seen[k]) / told : 0.0;
+    }
+  }
+  return best;
+}
+
+Track3 changes_of(const Track3& x, const ChangeWindows& windows, long shift) {
+  return {changes(x[0], windows, shift), changes(x[1], windows, shift), changes(x[2], windows, shift)};
+}
+
+/// Rows of a vector quantity of the arc as three tracks.
+template <class Value>
+Track3 tracks(const FlightArc& arc, Value value) {
+  Track3 out;
+  for (std::size_t i = 0; i < arc.rows(); ++i) {
+    const Eigen::Vector3d v = value(i);
+    for (std::size_t k = 0; k < 3; ++k) out[k].push_back(v[static_cast<Eigen::Index>(k)]);
+  }
+  return out;
+}
+
+Track3 integrals(const FlightArc& arc, const Track3& y) {
+  return {integral(arc.t, y[0]), integral(arc.t, y[1]), integral(arc.t, y[2])};
+}
+
+Track3 forces(const FlightArc& arc) {
+  Track3 f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    f[k] = channel_track(arc, kForce + static_cast<int>(k));
+    if (f[k].empty()) f[k].assign(arc.rows(), 0.0);
+  }
+  return f;
+}
+
+Eigen::Vector3d at(const Track3& x, std::size_t i) { return {x[0][i], x[1][i], x[2][i]}; }
+
+Pairs turns(const FlightArc& arc, const ChangeWindows& windows, long shift) {  // (1)
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const Track3 turned = tracks(arc, [&](std::size_t i) {
+    if (i == 0) return sum;
+    const Vec4<double> d = quaternion_product(conjugate(arc.start[i - 1].body.q_WB), arc.start[i].body.q_WB);
+    sum += (d[0] < 0 ? -2.0 : 2.0) * d.tail<3>();
+    return sum;
+  });
+  const Track3 rates = tracks(arc, [&](std::size_t i) { return arc.start[i].body.w_B; });
+  return {changes_of(turned, windows, 0), changes_of(integrals(arc, rates), windows, shift)};
+}
+
+Pairs velocities(const FlightArc& arc, const ChangeWindows& windows, long shift, double gravity) {  // (2)
+  const Track3 f = forces(arc);
+  const Track3 a_W = tracks(arc, [&](std::size_t i) {
+    return Eigen::Vector3d(rotation(arc.start[i].body.q_WB) * at(f, i) + gravity * Eigen::Vector3d::UnitZ());
+  });
+  const Track3 v = tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
+  return {changes_of(v, windows, 0), changes_of(integrals(arc, a_W), windows, shift)};
+}
+
+Pairs positions(const FlightArc& arc, const ChangeWindows& windows, long shift) {  // (3)
+  const Track3 x = tracks(arc, [&](std::size_t i) { return arc.start[i].body.x_W; });
+  const Track3 v = tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
+  return {changes_of(x, windows, 0), changes_of(integrals(arc, v), windows, shift)};
+}
+
+Pairs body_forces(const FlightArc& arc, const ChangeWindows& windows, long shift, double gravity) {  // (4)
+  const Track3 v = tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
+  Pairs out{changes_of(v, windows, 0), changes_of(integrals(arc, forces(arc)), windows, shift)};
+  for (std::size_t j = 0; j < out.seen[0].size(); ++j) {
+    const std::size_t from = windows.margin + j * windows.stride, to = from + windows.lag;
+    const double seconds = arc.t[to] - arc.t[from];
+    Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+    for (std::size_t i = from + windows.width / 2; i < to + windows.width / 2; ++i)
+      R += rotation(arc.start[i].body.q_WB) / static_cast<double>(windows.lag);
+    const Eigen::Vector3d f =
+        R.transpose() * (at(out.seen, j) / seconds - gravity * Eigen::Vector3d::UnitZ());
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.seen[k][j] = f[static_cast<Eigen::Index>(k)];
+      out.told[k][j] /= seconds;
+    }
+  }
+  return out;
+}
+
+std::vector<std::size_t> reversed(const Eigen::Matrix3d& c) {
+  std::vector<std::size_t> axes;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (c(k, k) < kAgainst) axes.push_back(static_cast<std::size_t>(k));
+  return axes;
+}
+
+using Names = std::array<const char*, 3>;
+
+/// Reversed and exchanged axes of one signal against a second; both codes may apply at once.
+void name_axes(const Eigen::Matrix3d& c, const Names& names, const std::string& against,
+               std::vector<Warning>& findings) {
+  std::vector<std::string> wrong;
+  for (const std::size_t k : reversed(c)) wrong.emplace_back(names[k]);
+  if (!wrong.empty())
+    findings.push_back({"sign_flipped", fmt::format("{}: runs against {}: reverse its sign, or correct the "
+                                                    "frames in a map file, and run again",
+                                                    fmt::join(wrong, ", "), against)});
+  for (Eigen::Index a = 0; a < 3; ++a)
+    for (Eigen::Index b = a + 1; b < 3; ++b)
+      if (std::abs(c(a, b)) > kOther && std::abs(c(b, a)) > kOther &&
+          std::max(std::abs(c(a, a)), std::abs(c(b, b))) < kOwn)
+        findings.push_back(
+            {"axes_swapped",
+             fmt::format("{} and {}: each follows the other's axis of {}: exchange the two columns{}",
+                         names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)], against,
+                         c(a, b) < 0 || c(b, a) < 0 ? ", and mind the sign" : "")});
+}
+
+/// The same for a signal in world axes, where known frames have names.
+void name_world(const Eigen::Matrix3d& c, const Names& names, const std::string& against,
+                std::vector<Warning>& findings) {
+  const bool up = c(2, 2) < kAgainst;
+  const bool exchanged = c(0, 1) > kOther && c(1, 0) > kOther && std::max(c(0, 0), c(1, 1)) < kOwn;
+  const bool west = c(0, 0) > kOwn && c(1, 1) < kAgainst;
+  if (up && (exchanged || west))
+    findings.push_back({"wrong_frame", fmt::format("{}: against {} they are {}, not north, east, down: state "
+                                                   "'frames: {{world: {}}}' in a map file",
+                                                   fmt::join(names, ", "), against,
+                                                   exchanged ? "east, north, up" : "north, west, up",
+                                                   exchanged ? "enu" : "nwu")});
+  else
+    name_axes(c, names, against, findings);
+}
+
+void test_gravity(const FlightRecord& record, double gravity, std::vector<Warning>& findings) {
+  Track3 f;
+  Track down;
+  for (const FlightArc& arc : record.arcs) {
+    const Track3 one = forces(arc);
+    append(f, one);
+    for (std::size_t i = 0; i < arc.rows() && record.signals.attitude; ++i)
+      down.push_back((rotation(arc.start[i].body.q_WB) * at(one, i))[2]);
+  }
+  constexpr Names names{"ax", "ay", "az"};
+  std::array<double, 3> middle{median(f[0]), median(f[1]), median(f[2])};
+  const auto carrier = static_cast<std::size_t>(
+      std::ranges::max_element(middle, {}, [](double v) { return std::abs(v); }) - middle.begin());
+  if (std::abs(middle[carrier]) > 0.6 * gravity && (carrier != 2 || middle[2] > 0)) {
+    findings.push_back(
+        {"wrong_frame",
+         fmt::format("{}: carries gravity ({:+.1f} m/s^2 mostly), but in flight a specific force "
+                     "is {:.1f} along az: correct the body frame or the column's sign in a map "
+                     "file",
+                     names[carrier], middle[carrier], -gravity)});
+  } else if (!down.empty() && median(down) > 0.5 * gravity) {
+    findings.push_back(
+        {"wrong_frame",
+         "attitude: turns the specific force upside down: it belongs to other body or world axes "
+         "(FLU, ENU); state them under 'frames' in a map file"});
+  }
+}
+
+}  // namespace
+
+SensorFrames test_sensor_frames(const FlightRecord& record, double gravity) {
+  SensorFrames out;
+  const Signals& s = record.signals;
+  if (s.force) test_gravity(record, gravity, out.findings);
+  if (s.rates && s.attitude) {
+    const Eigen::Matrix3d c = agreement(record, 0.15, turns).c;
+    out.rates_confirmed = c.diagonal().minCoeff() > 0.5;
+    if (reversed(c).size() == 3)
+      out.findings.push_back(
+          {"wrong_frame",
+           "attitude: turns against the rates about all axes: it is that of the world in the "
+           "body; conjugate it"});
+    else
+      name_axes(c, {"p", "q", "r"}, "the attitude", out.findings);
+  }
+  const bool moves = s.velocity || s.position;
+  if (!out.findings.empty() || !moves) return out;  // what follows relies on attitude and gravity
+  const std::string name = "the specific force";
+  const Names moving = s.velocity ? Names{"vx", "vy", "vz"} : Names{"x", "y", "z"};
+  if (s.velocity && s.position)
+    name_world(agreement(record, 0.3, positions).c, {"x", "y", "z"}, "the velocity", out.findings);
+  if (!s.force || !s.attitude) return out;
+  const std::size_t before = out.findings.size();
+  name_world(agreement(record, 0.3,
+                       [&](const FlightArc& arc, const ChangeWindows& windows, long shift) {
+                         return velocities(arc, windows, shift, gravity);
+                       })
+                 .c,
+             moving, name, out.findings);
+  if (out.findings.size() > before) return out;
+  const Agreement body =
+      agreement(record, 0.4, [&](const FlightArc& arc, const ChangeWindows& windows, long shift) {
+        return body_forces(arc, windows, shift, gravity);
+      });
+  for (Eigen::Index k = 0; k < 2; ++k)  // az has its gravity
+    if (body.c(k, k) < kAgainst && body.slope[k] < -0.4 && body.slope[k] > -2.5)
+      out.findings.push_back(
+          {"sign_flipped", fmt::format("a{}: runs against the acceleration that the velocity "
+                                       "and attitude show: reverse its sign in a map file",
+                                       k == 0 ? 'x' : 'y')});
+  return out;
+}
+
+}  // namespace ident
