@@ -27,10 +27,10 @@ FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const 
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Covariance of an unknown constant acceleration that moves velocities as much as the process does on average
-// over the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
+// Covariance of an unknown constant acceleration that moves velocities as much as the process does by the end of
+// the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
 void expect_outside(RowMatrix& P, int at, const std::array<ColouredNoise, 3>& noise, double horizon) {
-  const double T = horizon / 2;
+  const double T = horizon;
   for (int i = 0; i < 3 && at >= 0; ++i) {
     const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];
     const double moved = 2 * axis.tau * (T - axis.tau * (1 - axis.carried(T))) / (T * T);
@@ -166,7 +166,7 @@ GapClosed gap_closed(const std::vector<PredictionWindow>& before,
     }
     const double k = static_cast<double>(n);
     out.before = std::sqrt(b / k), out.after = std::sqrt(a / k), out.floor = std::sqrt(f / k);
-    return b > 1.02 * f ? 1 - (a - f) / (b - f) : kNaN;
+    return b > 1.02 * f ? std::min(1 - (a - f) / (b - f), 1.0) : kNaN;
   };
   std::mt19937_64 random(21);
   std::vector<double> draws;

@@ -39,8 +39,8 @@ struct PredictionSummary {
 };
 PredictionSummary summarise(const std::vector<PredictionWindow>& windows);
 
-/// 1 - (after^2 - floor^2)/(before^2 - floor^2) with a bootstrap interval; NaN where before is not above the
-/// floor.
+/// 1 - (after^2 - floor^2)/(before^2 - floor^2), at most 1, with a bootstrap interval; NaN where before is
+/// not above the floor.
 struct GapClosed {
   double closed = kNaN;
   std::array<double, 2> ci95{kNaN, kNaN};

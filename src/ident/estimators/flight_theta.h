@@ -19,6 +19,7 @@ struct FreeConstant {
   double start = 0.0, scale = 1.0;
   std::optional<double> prior_std;  ///< about `prior_value`
   double prior_value = 0.0;
+  bool adopted = false;  ///< belongs to a cause that a diagnosis took up, not to the model as stated
 };
 
 struct PriorTerms {

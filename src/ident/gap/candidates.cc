@@ -43,6 +43,12 @@ class Builder {
 
 }  // namespace
 
+bool states_effect(const Vehicle& vehicle, std::string_view effect) {
+  const std::string prefix = std::string(effect) + ".";
+  return std::ranges::any_of(vehicle.parameters,
+                             [&](const auto& entry) { return entry.first.starts_with(prefix); });
+}
+
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,
                                  const std::vector<FreeConstant>& base,
                                  const std::vector<std::string>& exclude) {
@@ -63,7 +69,7 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
   }
   for (const EffectEntry& e : catalogue()) {
     const std::string name(e.info.name);
-    if (!wanted(name)) continue;
+    if (!wanted(name) || states_effect(vehicle, name)) continue;
     const auto is = [&](EffectId id) { return e.id == id; };
     const bool flow = (e.info.touches & kTouchFlow) != 0;
     if (is(EffectId::rotor_mismatch) || is(EffectId::rotor_tilt)) {

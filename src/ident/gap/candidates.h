@@ -25,6 +25,9 @@ struct ExtendedProblem {
   std::vector<Candidate> candidates;
 };
 
+/// Whether the vehicle file states this effect: then it is part of the model, no cause to be found.
+bool states_effect(const Vehicle& vehicle, std::string_view effect);
+
 /// `base` are the constants of the current model (effects already adopted included), `exclude` names of
 /// causes that must not be tried.
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,

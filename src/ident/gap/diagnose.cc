@@ -220,11 +220,11 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   if (options.progress) options.progress(0.9, "held-out flight");
 
   const ResidualWrench before =
-      residual_wrench(record, *search.base.theta, search.base.fit, search.best.fit.noise);
+      residual_wrench(record, *search.base.theta, search.base.fit, search.form.noise);
   const ResidualWrench after =
       search.best.adopted.empty()
           ? before
-          : residual_wrench(record, *search.best.theta, search.best.fit, search.best.fit.noise);
+          : residual_wrench(record, *search.best.theta, search.best.fit, search.form.noise);
   const Rival rival = generic_rival(record, *search.best.theta, search.best.fit, search.form.noise);
 
   // Held out: both models fitted to the first 70 % of each log, judged on the rest under the final noise.
@@ -241,7 +241,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   // "Before" is the model as it was given: bench values, with the biases of the fit.
   Eigen::VectorXd stated = search.base.fit.u;
   stated.head(search.base.theta->constants_count()).setZero();
-  const NoiseModel& noise = search.best.fit.noise;
+  const NoiseModel& noise = search.form.noise;
   const auto a = predict_windows(split.held_out, *search.base.theta, stated, noise, windows);
   const auto b = predict_windows(split.held_out, best, u_best, noise, windows);
   for (std::size_t h = 0; h < windows.horizons.size(); ++h) {

@@ -147,6 +147,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
           c.start = std::clamp(moved * at[param::m] / mass, -0.3, 0.3);
         }
       }
+      c.adopted = true;
       constants.push_back(c);
     }
     std::vector<Candidate> adopted = out.best.adopted;

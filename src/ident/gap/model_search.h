@@ -39,7 +39,8 @@ struct SearchResult {
   std::vector<SearchStep> steps;
 
   double probability_of(const std::string& name) const;
-  /// Scatter of an adopted cause's value over blocks of flight, in units of what noise makes: 1 for a true cause.
+  /// Scatter of an adopted cause's value over blocks of flight, in units of what noise makes: 1 for a true
+  /// cause.
   double scatter_of(const Candidate& adopted) const;
 };
 

@@ -52,7 +52,7 @@ Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
 std::vector<int> base_unknowns(const QuadraticForm& f, const ExtendedProblem& problem) {
   std::vector<int> free;
   for (int i = 0; i < problem.base; ++i)
-    if (problem.constants[static_cast<std::size_t>(i)].name.find('.') == std::string::npos) free.push_back(i);
+    if (!problem.constants[static_cast<std::size_t>(i)].adopted) free.push_back(i);
   for (int i = f.constants; i < f.g.size(); ++i) free.push_back(i);
   return free;
 }
@@ -87,7 +87,8 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   form.null = VectorXd::Zero(theta.size());
   for (int i = 0; i < form.constants; ++i) {
     const FreeConstant& c = constants[static_cast<std::size_t>(i)];
-    if (c.name.find('.') == std::string::npos) continue;
+    const std::size_t dot = c.name.find('.');
+    if (dot == std::string::npos || states_effect(*record.vehicle, c.name.substr(0, dot))) continue;
     form.null[i] = (find_parameter(c.name)->null_value - c.start) / c.scale;
   }
   // Variance of the scores over blocks, each projected on the base, over what white residuals would give.
