@@ -1,0 +1,52 @@
+// The diagnosis end to end on simulated flight: the cause that was withheld, and none where nothing was.
+#include "ident/gap/diagnose.h"
+
+#include <gtest/gtest.h>
+
+#include "ident/io/vehicle_file.h"
+#include "ident/model/simulate.h"
+
+namespace ident {
+namespace {
+
+FlightLog flight_of(const Vehicle& vehicle, std::uint64_t seed) {
+  SimulationOptions options;
+  options.duration = 25.0;
+  options.rate = 100.0;
+  options.seed = seed;
+  return simulate_flight(vehicle, options).log;
+}
+
+Vehicle published() { return read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml"); }
+
+nlohmann::ordered_json verdict_of(const Vehicle& model, const FlightLog& log) {
+  const std::vector<FlightLog> logs{log};
+  return diagnose_gap(model, logs).result.extra["verdict"];
+}
+
+TEST(Diagnosis, PrintedSignsOfPhangAreFoundAsGyroscopicAndRightOnesLeaveNothing) {
+  const Vehicle truth = published();
+  Vehicle printed = truth;
+  printed.signs = Signs::as_published;
+  const FlightLog log = flight_of(truth, 1);
+  const auto wrong = verdict_of(printed, log);
+  EXPECT_EQ(wrong["status"], "identified");
+  EXPECT_EQ(wrong["effects"], nlohmann::ordered_json({"gyroscopic"}));
+  EXPECT_EQ(verdict_of(truth, log)["status"], "none");
+}
+
+TEST(Diagnosis, WithheldRotorDragIsNamedAndWithoutItInTheCatalogueNothingElseIs) {
+  Vehicle truth = published();
+  const Vehicle model = truth;
+  truth.parameters["rotor_drag.kd"] = {3e-5, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 2)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"rotor_drag"}));
+  EXPECT_NEAR(found.adopted.parameters.at("rotor_drag.kd").value, 3e-5, 3e-6);
+  GapOptions options;
+  options.exclude = {"rotor_drag"};
+  EXPECT_EQ(diagnose_gap(model, logs, options).result.extra["verdict"]["status"], "unknown");
+}
+
+}  // namespace
+}  // namespace ident
