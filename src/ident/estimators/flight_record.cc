@@ -34,7 +34,7 @@ Signals signals_of(std::span<const FlightLog> logs) {
   return s;
 }
 
-StateLayout layout_of(const Signals& s, int rotors, bool whole) {
+StateLayout layout_of(const Signals& s, int rotors) {
   StateLayout layout;
   layout.rotors = rotors;
   int next = 3;
@@ -43,7 +43,7 @@ StateLayout layout_of(const Signals& s, int rotors, bool whole) {
     next += n;
     return at;
   };
-  if (s.attitude || s.velocity || s.position || whole) layout.attitude = take(3);
+  if (s.attitude || s.velocity || s.position) layout.attitude = take(3);
   if (s.velocity || s.position) layout.v = take(3);
   if (s.position) layout.x = take(3);
   if (s.commands) layout.motors = take(2 * rotors);
@@ -310,7 +310,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   if (rotors == 0 || rotors > kMaxRotors)
     throw UsageError(
         fmt::format("{}: rotors: 1 to {} rotors are supported, not {}", vehicle.file, kMaxRotors, rotors));
-  record.layout = layout_of(record.signals, rotors, options.whole_state);
+  record.layout = layout_of(record.signals, rotors);
   for (std::size_t n = 0; n < logs.size(); ++n) {
     const FlightLog& log = logs[n];
     if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");

@@ -43,7 +43,6 @@ struct FlightRecord {
 
 struct RecordOptions {
   double longest_gap = 0.25;  ///< s without a row that ends an arc
-  bool whole_state = false;   ///< keep attitude and velocity in the state although nothing measures them
 };
 
 /// Splits logs into arcs in flight. `p` are the constants to start from (motor states are simulated with

@@ -34,8 +34,7 @@ struct SearchResult {
   QuadraticForm form;
   ExtendedProblem base_problem;
   QuadraticForm base_form;
-  std::vector<WeighedSet> sets;     ///< most probable first
-  std::vector<double> probability;  ///< of each candidate of `problem`, by name: see probability_of
+  std::vector<WeighedSet> sets;  ///< most probable first
   std::vector<SearchStep> steps;
 
   double probability_of(const std::string& name) const;

@@ -1,0 +1,48 @@
+// Accelerations from outside: a profile of known size is found with its sign.
+#include "ident/estimators/flight_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "ident/estimators/flight_fit.h"
+#include "ident/io/vehicle_file.h"
+#include "ident/model/simulate.h"
+
+namespace ident {
+namespace {
+
+// A centre of gravity c to the right of the origin: the model, which lacks it, misses a moment m g c about x,
+// hence an angular acceleration m g c/Jxx as long as the vehicle hovers.
+TEST(FlightSmoother, ConstantProfileTakesUpTheMomentOfAnOffCentreMass) {
+  const Vehicle model = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  Vehicle truth = model;
+  constexpr double c = 0.002;
+  truth.parameters["cg_offset.y"] = {c, {}};
+  SimulationOptions options;
+  options.scenario = "hover";
+  options.duration = 12.0;
+  options.rate = 100.0;
+  const std::vector<FlightLog> logs{simulate_flight(truth, options).log};
+  const std::vector<double> p = parameter_vector(model);
+  const FlightRecord record = make_flight_record(model, p, logs);
+  const Theta theta(p, {}, 1, true);
+  NoiseModel noise = initial_noise(record);
+  noise.w_dot.fill({0.5, 1.0});
+  noise.v_dot.fill({0.1, 1.0});
+  FlightSmoother smoother(record, theta, noise, 0.1);
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+  smoother.settle(u, 3);
+  smoother.linearize(u);
+  smoother.set_profiles(
+      std::vector<Eigen::MatrixXd>(smoother.chunks().size(), Eigen::MatrixXd(Eigen::VectorXd::Unit(6, 0))));
+  const ReducedSystem& system = smoother.relinearize();
+  Eigen::MatrixXd H = system.S;
+  H.diagonal().head(theta.size()).array() += 1.0;  // the priors of the gyro's biases
+  const Eigen::VectorXd step = -Eigen::LDLT<Eigen::MatrixXd>(H).solve(system.g);
+  const double expected = model.value("m") * model.g * c / model.value("Jxx");
+  EXPECT_NEAR(step[theta.size()], expected, 0.1 * expected);
+}
+
+}  // namespace
+}  // namespace ident
