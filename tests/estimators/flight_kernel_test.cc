@@ -89,9 +89,9 @@ TEST(FlightKernel, EveryInstructionSetSaysTheSame) {
     double largest = 0;
     for (const double a : plain.A) largest = std::max(largest, std::abs(a));
     for (std::size_t i = 0; i < plain.A.size(); ++i)
-      ASSERT_NEAR(other.A[i], plain.A[i], 1e-10 * largest) << isa << " " << i;
+      ASSERT_NEAR(other.A[i], plain.A[i], 1e-7 * largest) << isa << " " << i;  // slopes in single precision
     for (std::size_t i = 0; i < plain.E.size(); ++i)
-      ASSERT_NEAR(other.E[i], plain.E[i], 1e-9 * (1 + std::abs(plain.E[i]))) << isa;
+      ASSERT_NEAR(other.E[i], plain.E[i], 1e-5 * (1 + std::abs(plain.E[i]))) << isa;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   const FlightFit fit = fit_flight(record, theta, options);
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    EXPECT_NEAR(theta.physical(fit.u, i) / s.p[static_cast<std::size_t>(c.index)], 1.0, 1e-6) << c.name;
+    EXPECT_NEAR(theta.physical(fit.u, i) / s.p[static_cast<std::size_t>(c.index)], 1.0, 1e-8) << c.name;
   }
 }
 

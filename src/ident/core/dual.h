@@ -1,4 +1,7 @@
-// A dual number whose derivatives fill SIMD registers: value and K packs of 8 derivatives, forward mode.
+// A dual number whose derivatives fill SIMD registers: value and K packs of derivatives, forward mode.
+//
+// The value is a double. Derivatives are of type D: single precision where they serve a Gauss-Newton step,
+// which asks for the residuals to the last digit but for their slopes only to some.
 //
 // `Isa` is an empty tag. Code that is compiled several times for different instruction sets names its own tag
 // in each, so that no function of one build can be taken for that of another.
@@ -10,20 +13,26 @@
 
 namespace ident {
 
-using Pack8 = double __attribute__((vector_size(64)));
+/// 64 bytes of numbers: 8 doubles or 16 floats.
+template <class D>
+struct PackOf {
+  using type __attribute__((vector_size(64))) = D;
+};
+using Pack8 = PackOf<double>::type;
 
-template <int K, class Isa>
+template <int K, class Isa, class D = double>
 struct Dual {
-  static constexpr int width = 8 * K;
+  using Pack = typename PackOf<D>::type;
+  static constexpr int lanes = 64 / sizeof(D), width = lanes * K;
   double v;
-  Pack8 d[K];
+  Pack d[K];
 
   Dual() = default;                // not initialised, like a double: temporaries are many
   Dual(double value) : v(value) {  // NOLINT: a constant is a dual number without derivatives
-    for (int k = 0; k < K; ++k) d[k] = Pack8{};
+    for (int k = 0; k < K; ++k) d[k] = Pack{};
   }
-  void seed(int i, double derivative = 1.0) { d[i / 8][i % 8] = derivative; }
-  double derivative(int i) const { return d[i / 8][i % 8]; }
+  void seed(int i, double derivative = 1.0) { d[i / lanes][i % lanes] = static_cast<D>(derivative); }
+  double derivative(int i) const { return static_cast<double>(d[i / lanes][i % lanes]); }
 
   bool is_constant() const {
     for (int i = 0; i < width; ++i)
@@ -48,7 +57,8 @@ struct Dual {
   [[gnu::always_inline]] static Dual chain(double f, double slope, const Dual& a) {
     Dual r;
     r.v = f;
-    for (int k = 0; k < K; ++k) r.d[k] = slope * a.d[k];
+    const D s = static_cast<D>(slope);
+    for (int k = 0; k < K; ++k) r.d[k] = s * a.d[k];
     return r;
   }
 
@@ -67,14 +77,16 @@ struct Dual {
   [[gnu::always_inline]] friend Dual operator*(const Dual& a, const Dual& b) {
     Dual r;
     r.v = a.v * b.v;
-    for (int k = 0; k < K; ++k) r.d[k] = a.v * b.d[k] + b.v * a.d[k];
+    const D x = static_cast<D>(a.v), y = static_cast<D>(b.v);
+    for (int k = 0; k < K; ++k) r.d[k] = x * b.d[k] + y * a.d[k];
     return r;
   }
   [[gnu::always_inline]] friend Dual operator/(const Dual& a, const Dual& b) {
     Dual r;
     const double inverse = 1.0 / b.v;
     r.v = a.v * inverse;
-    for (int k = 0; k < K; ++k) r.d[k] = (a.d[k] - r.v * b.d[k]) * inverse;
+    const D x = static_cast<D>(r.v), y = static_cast<D>(inverse);
+    for (int k = 0; k < K; ++k) r.d[k] = (a.d[k] - x * b.d[k]) * y;
     return r;
   }
   [[gnu::always_inline]] friend Dual operator-(const Dual& a) { return chain(-a.v, -1.0, a); }
@@ -96,7 +108,8 @@ struct Dual {
   [[gnu::always_inline]] friend Dual sum(const Dual& a, double h, const Dual& b) {
     Dual r;
     r.v = a.v + h * b.v;
-    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + h * b.d[k];
+    const D s = static_cast<D>(h);
+    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + s * b.d[k];
     return r;
   }
 
@@ -123,9 +136,9 @@ struct Dual {
 }  // namespace ident
 
 namespace Eigen {
-template <int K, class Isa>
-struct NumTraits<ident::Dual<K, Isa>> : GenericNumTraits<ident::Dual<K, Isa>> {
-  using Real = ident::Dual<K, Isa>;
+template <int K, class Isa, class D>
+struct NumTraits<ident::Dual<K, Isa, D>> : GenericNumTraits<ident::Dual<K, Isa, D>> {
+  using Real = ident::Dual<K, Isa, D>;
   using NonInteger = Real;
   using Nested = Real;
   enum {

@@ -14,6 +14,9 @@ namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
+// A step that promises less than this fall of the cost is taken without looking back while noise is
+// estimated.
+constexpr double kNear = 25.0;
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -54,6 +57,18 @@ MatrixXd inverse_of(const MatrixXd& M) {
   const MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
   const MatrixXd inverse = Eigen::LDLT<MatrixXd>(scaled).solve(MatrixXd::Identity(M.rows(), M.cols()));
   return s.asDiagonal() * inverse * s.asDiagonal();
+}
+
+// To the minimum of the quadratic form, and how far the cost falls there.
+struct Newton {
+  VectorXd du;
+  double fall;
+};
+Newton newton_step(const ReducedSystem& system, const Theta& theta, const VectorXd& u) {
+  const PriorTerms prior = theta.prior(u);
+  const VectorXd g = system.g + prior.slope.cwiseProduct(prior.residual);
+  const VectorXd du = -inverse_of(system.S + prior_information(theta, u)) * g;
+  return {du, -g.dot(du)};
 }
 
 // Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
@@ -213,9 +228,14 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       smoother->set_huber(options.robust ? kHuber : 1e9);
       smoother->settle(u, 1);
     }
-    u = minimise_shared(*smoother, u, 0.1, 1, &fit.steps);
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
     if (change < 0.03) break;
+    smoother->accept();
+    const Newton step = newton_step(smoother->reduced(), theta, u);
+    if (step.fall < kNear)
+      u += step.du;
+    else
+      u = minimise_shared(*smoother, u, 0.1, 1, &fit.steps);
   }
   u = minimise_shared(*smoother, u, options.tolerance, 30, &fit.steps, &fit.cost);
   const ReducedSystem system = smoother->stands_at(u) ? smoother->relinearize() : smoother->linearize(u);

@@ -60,7 +60,7 @@ class ChunkKernel {
       if (kind_of(i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
     for (const Seed& seed : task_.seeds)
       if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
-    // The rest of the packs of dual numbers stays empty: sweeps are four or two packs wide.
+    // The rest of the packs of dual numbers stays empty: sweeps are 32 or 16 columns wide.
     dual_packs_ = 2 * ((columns_ + 15) / 16);
     while (columns_ < 8 * dual_packs_) column_[columns_++] = {-1, 0, Kind::dual, 0.0};
     for (int i = 0; i < layout.size; ++i) {
@@ -130,9 +130,9 @@ class ChunkKernel {
       const int left = dual_packs_ - pack;
       // Two widths only: each one is a whole copy of the model in the program.
       if (left >= 4)
-        sweep<4>(pack, first), pack += 4;
+        sweep<2>(pack, first), pack += 4;
       else
-        sweep<2>(pack, first), pack += 2;
+        sweep<1>(pack, first), pack += 2;
       first = false;
     }
     analytic_gradient();
@@ -146,8 +146,9 @@ class ChunkKernel {
 
   template <int K>
   void sweep(int pack, bool first) {
-    using S = Dual<K, Isa>;
-    const int from = 8 * pack, to = from + 8 * K;
+    using S = Dual<K, Isa, float>;
+    constexpr int packs = 2 * K;
+    const int from = 8 * pack, to = from + S::width;
     EffectMask effects = task_.active;  // those off their null values, and those of this sweep's directions
     S p[kParameterCount], bias[3];
     for (int i = 0; i < kParameterCount; ++i) p[i] = S(task_.p.data()[i]);
@@ -162,19 +163,19 @@ class ChunkKernel {
     ChunkRun<Isa, S> run(task_, std::span<const S>(p, static_cast<std::size_t>(kParameterCount)), effects,
                          bias);
     std::size_t sample = 0;
-    Pack8 gradient[K] = {};
+    Pack8 gradient[packs] = {};
     const FlightState<S> end = run(seeded<S>(from, to), [&](std::size_t i, int channel, const S& residual) {
       const double weight = task_.weight[channel], r = residual.v * weight, a = r < 0 ? -r : r;
       // Huber: beyond the bend the row is scaled so that J'J and J'r are those of rho.
       const double bend = a <= task_.huber ? 1.0 : __builtin_sqrt(task_.huber / a);
       Pack8* row = J_ + sample * static_cast<std::size_t>(packs_) + pack;
       const double scale = weight * bend;
-      for (int k = 0; k < K; ++k) row[k] = residual.d[k] * scale;
+      for (int k = 0; k < packs; ++k) row[k] = doubles(residual, k) * scale;
       if (first) {
         out_.cost += a <= task_.huber ? r * r : task_.huber * (2 * a - task_.huber);
         count(out_, channel, r, task_.huber, 0.0);
       }
-      for (int k = 0; k < K; ++k) gradient[k] += row[k] * (r * bend);
+      for (int k = 0; k < packs; ++k) gradient[k] += row[k] * (r * bend);
       if (first) {
         sample_[sample] = {scale, r * bend, channel};
         analytic(J_ + sample * static_cast<std::size_t>(packs_), channel, task_.t[i] - task_.t[task_.begin],
@@ -188,6 +189,17 @@ class ChunkKernel {
         out_.g.data()[column_[i].external] = gradient[(i - from) / 8][(i - from) % 8];
     store_end(end, from);
     if (first) out_.x_end = values(end);
+  }
+
+  // Eight derivatives in double precision.
+  template <class S>
+  static Pack8 doubles(const S& x, int pack) {
+    using Half = float __attribute__((vector_size(32)));
+    Half half;
+    __builtin_memcpy(&half,
+                     reinterpret_cast<const char*>(&x.d) + static_cast<std::size_t>(pack) * sizeof(Half),
+                     sizeof(Half));
+    return __builtin_convertvector(half, Pack8);
   }
 
   template <class S>
@@ -288,20 +300,26 @@ class ChunkKernel {
 
   // Leverage of each sample with respect to the local state: j P j'.
   void leverages() {
+    const auto stride = static_cast<std::size_t>(packs_);
     const int n = task_.layout.size;
-    const auto stride = static_cast<std::size_t>(packs_) * 8;
-    const double* J = reinterpret_cast<const double*>(J_);
+    AlignedPack* P = table<AlignedPack>(static_cast<std::size_t>(n) * stride);
+    for (int a = 0; a < n; ++a) {
+      Pack8* row = &P[static_cast<std::size_t>(a) * stride].pack;
+      for (std::size_t k = 0; k < stride; ++k) row[k] = Pack8{};
+      for (int b = 0; b < n; ++b) row[place_[b].at / 8][place_[b].at % 8] = task_.covariance[a * n + b];
+    }
     for (std::size_t s = 0; s < samples_; ++s) {
-      const double* j = J + s * stride;
-      double sum = 0;
+      const Pack8* j = J_ + s * stride;
+      Pack8 sum{};
       for (int a = 0; a < n; ++a) {
-        const double ja = j[place_[a].at];
+        const double ja = j[place_[a].at / 8][place_[a].at % 8];
         if (ja == 0) continue;
-        double row = 0;
-        for (int b = 0; b < n; ++b) row += task_.covariance[a * n + b] * j[place_[b].at];
-        sum += ja * row;
+        const Pack8* row = &P[static_cast<std::size_t>(a) * stride].pack;
+        for (std::size_t k = 0; k < stride; ++k) sum += (ja * row[k]) * j[k];
       }
-      out_.leverage[static_cast<std::size_t>(sample_[s].channel)] += sum;
+      double total = 0;
+      for (int k = 0; k < 8; ++k) total += sum[k];
+      out_.leverage[static_cast<std::size_t>(sample_[s].channel)] += total;
     }
   }
 

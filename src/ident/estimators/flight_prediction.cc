@@ -27,8 +27,8 @@ FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const 
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Covariance of an unknown constant acceleration that moves velocities as much as the process does by the end of
-// the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
+// Covariance of an unknown constant acceleration that moves velocities as much as the process does by the end
+// of the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
 void expect_outside(RowMatrix& P, int at, const std::array<ColouredNoise, 3>& noise, double horizon) {
   const double T = horizon;
   for (int i = 0; i < 3 && at >= 0; ++i) {

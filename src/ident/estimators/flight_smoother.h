@@ -62,6 +62,8 @@ class FlightSmoother {
   const ReducedSystem& linearize(const Eigen::VectorXd& u, bool leverage = false);
   /// Eliminates the last linearisation once more, after a change of the process noise.
   const ReducedSystem& relinearize();
+  /// What the last elimination left.
+  const ReducedSystem& reduced() const { return reduced_; }
   /// Whether the last linearisation is at u, and of the present sensor noise.
   bool stands_at(const Eigen::VectorXd& u) const { return stands_ && u == trial_u_; }
   /// Makes the last linearisation the one from which states are predicted from now on.
