@@ -8,7 +8,9 @@
 
 #include "ident/core/error.h"
 #include "ident/estimators/motor_step_model.h"
+#include "ident/model/simulate_bench.h"
 #include "support/bench_campaign.h"
+#include "support/random_vehicle.h"
 
 namespace ident {
 namespace {
@@ -206,6 +208,71 @@ TEST(Motor, RefusesRecordingsInWhichNothingHappens) {
     if (column.name == "delta") std::ranges::fill(column.values, 0.5);
   EXPECT_THROW(estimate_motor({still}), DataError);
   EXPECT_THROW(estimate_motor({constant}), DataError);
+}
+
+/// The recording with a second before it in which the motor stands, is told to turn and takes 0.4 s of
+/// stumbling to get going, as sensorless controllers do: not the motor's equation.
+NumberTable with_start_from_rest(const NumberTable& table) {
+  NumberTable result = table;
+  for (Column& column : result.columns) {
+    std::vector<double> values;
+    for (int i = 0; i < 100; ++i) {
+      const double t = 0.01 * i, ramp = std::max(0.0, (t - 0.9) / 0.1);
+      values.push_back(column.name == "t"       ? t - 1.0
+                       : column.name == "delta" ? (t < 0.5 ? 0.0 : 0.3)
+                                                : 300.0 * ramp * ramp);
+    }
+    column.values.insert(column.values.begin(), values.begin(), values.end());
+  }
+  result.line.assign(result.columns.front().values.size(), 0);
+  return result;
+}
+
+TEST(Motor, AStartFromRestThatIsNotTheMotorsEquationIsLeftOut) {
+  bench::Random random(6);
+  const NumberTable steps = bench::motor_steps(motor(25.0, 0.8), random, {}).table;
+  const Result result = estimate_motor({with_start_from_rest(steps)});
+  ASSERT_TRUE(result.has_warning("not_driven"));
+  expect_holds(result, "omega_m", 25.0);
+  expect_holds(result, "zeta_m", 0.8);
+  expect_holds(result, "dead_time", 0.012);
+}
+
+TEST(Motor, AMotorThatObeysItsEquationFromRestAndDownToItLosesNoRow) {
+  Vehicle vehicle = random_vehicle(1);
+  MotorSteps steps;
+  steps.levels = {0.0, 0.6, 0.3, 0.8, 0.0, 0.5};
+  const NumberTable table = simulate_motor(vehicle, steps);
+  const Result result = estimate_motor({table});
+  EXPECT_FALSE(result.has_warning("not_driven"));
+  EXPECT_EQ(result.fit["samples"].get<std::size_t>(), table.rows());
+  expect_holds(result, "omega_m", vehicle.value("omega_m"));
+}
+
+TEST(Motor, ACommandThatIsWrittenLateGivesNoNegativeDeadTime) {
+  bench::Random random(7);
+  NumberTable table = bench::motor_steps(motor(25.0, 0.8), random, {}).table;
+  for (Column& column : table.columns)
+    if (column.name == "delta")  // 4 rows of 10 ms, the dead time is 12 ms
+      std::rotate(column.values.rbegin(), column.values.rbegin() + 4, column.values.rend());
+  for (Column& column : table.columns)
+    if (column.name == "delta") std::fill_n(column.values.begin(), 4, column.values[4]);
+  const Result result = estimate_motor({table});
+  EXPECT_TRUE(result.has_warning("negative_dead_time"));
+  EXPECT_EQ(result.find("dead_time")->value, 0.0);
+  EXPECT_GE(result.find("dead_time")->ci95[0], 0.0);
+}
+
+TEST(Motor, SettledRowsOfALongRecordingChangeNothing) {
+  Vehicle named = random_vehicle(1);
+  named.parameters["omega_m"] = {60.0, {}}, named.parameters["zeta_m"] = {0.8, {}};
+  MotorSteps steps;
+  steps.hold = 5.0;
+  const Result result = estimate_motor({simulate_motor(named, steps)});
+  ASSERT_TRUE(result.has_warning("settled_rows"));
+  EXPECT_LT(result.fit["samples"].get<int>(), 3500);  // of 7000
+  expect_holds(result, "omega_m", 60.0);
+  expect_holds(result, "km", named.value("km"));
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/core/format_number.h"
 #include "ident/estimators/motor_step_findings.h"
+#include "ident/estimators/motor_step_look.h"
 #include "ident/estimators/motor_step_report.h"
 #include "ident/estimators/statistics.h"
 
@@ -30,24 +32,6 @@ std::vector<StepRecord> all_records(const std::vector<NumberTable>& tables, cons
       records.push_back(std::move(record));
   }
   return records;
-}
-
-/// Rows that came in bursts carry the time of their arrival; even times are taken where they fit better.
-MotorFit fit_with_right_times(std::vector<StepRecord>& records, Result& result) {
-  MotorFit motor = fit_motor(records);
-  if (std::ranges::none_of(records, has_bunched_times)) return motor;
-  std::vector<StepRecord> even = records;
-  for (StepRecord& record : even)
-    if (has_bunched_times(record)) record = with_even_times(record);
-  MotorFit with_even = fit_motor(even);
-  if (with_even.fit.bic >= motor.fit.bic) return motor;
-  result.warn(
-      "bunched_times",
-      fmt::format("rows come in bursts, so their times say when they were passed on; times of equal distance "
-                  "were taken instead, which brings the noise from {:.3g} to {:.3g} rad/s",
-                  motor.fit.noise[0].sigma, with_even.fit.noise[0].sigma));
-  records = std::move(even);
-  return with_even;
 }
 
 void add_fit(Result& result, const std::vector<StepRecord>& records, const MotorFit& motor) {
@@ -110,8 +94,9 @@ void add_correlation(Result& result, const MotorFit& motor) {
 
 Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions& options) {
   Result result{.command = "motor"};
-  std::vector<StepRecord> records = all_records(tables, options, result);
-  const MotorFit motor = fit_with_right_times(records, result);
+  const FirstLook look = look_at_records(all_records(tables, options, result), result.warnings);
+  const std::vector<StepRecord>& records = look.records;
+  const MotorFit motor = fit_motor(records, look.near);
   const StepResponse response = step_response(motor);
   const StaticLine line = static_line(records, motor);
 
@@ -119,7 +104,7 @@ Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions
   if (line.Omega_0) result.parameters.push_back(*line.Omega_0);
   result.parameters.push_back(fitted_parameter(motor.fit, "omega_m", "rad/s", "motor"));
   result.parameters.push_back(fitted_parameter(motor.fit, "zeta_m", "-", "motor"));
-  result.parameters.push_back(fitted_parameter(motor.fit, "dead_time", "s", "motor"));
+  result.parameters.push_back(motor.dead_time);
   add_fit(result, records, motor);
   expect_answer(result, records);
   add_response(result, response);
@@ -128,10 +113,12 @@ Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions
   judge_static_curve(result, records, line);
   compare_directions(result, records, motor);
   const Parameter& dead_time = *result.find("dead_time");
-  if (dead_time.ci95[1] < 0.0)
+  if (const auto& free = motor.negative_dead_time; free && free->ci95[1] < 0.0)
     result.warn("negative_dead_time",
-                "the speed answers before the command changes: the two columns are not of the "
-                "same time; add a constant to the time of one of them");
+                fmt::format("the speed answers before the command changes, by {} s: the recording writes the "
+                            "command too late, or the two columns are not of the same time. The dead time is "
+                            "taken as 0; add a constant to the time of one of them",
+                            format_with_uncertainty(-free->value, free->std)));
   if (dead_time.ci95[0] > kLongestDeadTime)
     result.warn(
         "implausible_dead_time",

@@ -53,17 +53,20 @@ class Propagator {
     const double ratio = down_ ? shape_.down_ratio : 1.0, omega = ratio * shape_.omega_m;
     // Equal distances differ by rounding; what that changes is rounding too.
     if (std::fabs(h - step_.h) > 1e-11 || omega != step_.omega_m) step_ = transition(omega, shape_.zeta_m, h);
-    Eigen::Matrix2Xd deviation = x_;
-    deviation.row(0) -= target_;
-    x_.noalias() = step_.P * deviation;
+    deviation_ = x_;
+    deviation_.row(0) -= target_;
+    x_.noalias() = step_.P.lazyProduct(deviation_);
     x_.row(0) += target_;
     if (slopes_ == Slopes::no) return;
-    for (auto& d : d_) d = step_.P * d;
-    const Eigen::Matrix2Xd by_omega = step_.P_omega * deviation;
-    d_[0] += ratio * by_omega;
-    d_[1] += step_.P_zeta * deviation;
-    if (h_tau != 0.0) d_[2] += h_tau * (step_.P_h * deviation);
-    if (down_) d_[3] += shape_.omega_m * by_omega;
+    for (auto& d : d_) {
+      product_.noalias() = step_.P.lazyProduct(d);
+      d.swap(product_);
+    }
+    product_.noalias() = step_.P_omega.lazyProduct(deviation_);
+    d_[0] += ratio * product_;
+    if (down_) d_[3] += shape_.omega_m * product_;
+    d_[1].noalias() += step_.P_zeta.lazyProduct(deviation_);
+    if (h_tau != 0.0) d_[2].noalias() += (h_tau * step_.P_h).lazyProduct(deviation_);
   }
 
   void write(Eigen::Index row, MotorResponses& out) const {
@@ -77,7 +80,7 @@ class Propagator {
   Slopes slopes_;
   Eigen::RowVectorXd target_;
   bool down_ = false;
-  Eigen::Matrix2Xd x_;
+  Eigen::Matrix2Xd x_, deviation_, product_;
   std::array<Eigen::Matrix2Xd, 4> d_;
   Transition step_;
 };
