@@ -67,7 +67,7 @@ struct Setting {
     weight.fill(10.0);
     const FlightArc& arc = record.arcs[0];
     ChunkTask t;
-    t.vehicle = &vehicle, t.inputs = &arc.inputs, t.layout = record.layout, t.p = constants, t.seeds = seeds;
+    t.vehicle = &vehicle, t.inputs = arc.inputs.get(), t.layout = record.layout, t.p = constants, t.seeds = seeds;
     t.gyro_bias = theta.gyro_bias(at, 0);
     t.thetas = theta.size(), t.begin = 10, t.end = 120, t.rows = arc.rows();
     t.t = arc.t.data(), t.y = arc.y.data(), t.q = arc.q.data(), t.weight = weight.data();
@@ -93,6 +93,49 @@ TEST(FlightKernel, EveryInstructionSetSaysTheSame) {
     for (std::size_t i = 0; i < plain.E.size(); ++i)
       ASSERT_NEAR(other.E[i], plain.E[i], 1e-5 * (1 + std::abs(plain.E[i]))) << isa;
   }
+}
+
+// The sum over samples of j P j' is the trace of P J'J.
+TEST(FlightKernel, LeveragesAddUpToTheTrace) {
+  Setting s;
+  std::vector<double> constants;
+  ChunkTask task = s.task(Eigen::VectorXd::Zero(s.theta.size()), constants);
+  task.huber = 1e9;
+  const int n = s.record.layout.size;
+  std::vector<double> P(static_cast<std::size_t>(n * n));
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) P[static_cast<std::size_t>(i * n + k)] = std::cos(i - k) / (1.0 + i + k);
+  task.covariance = P.data();
+  for (const char* isa : {"baseline", "avx2", "avx512"}) {
+    ChunkResult r;
+    if (!evaluate_chunk_with(isa, task, r)) continue;
+    const int d = n + s.theta.size();
+    double trace = 0, sum = 0;
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k)
+        trace += P[static_cast<std::size_t>(i * n + k)] * r.A[static_cast<std::size_t>(k * d + i)];
+    for (const double x : r.leverage) sum += x;
+    EXPECT_NEAR(sum, trace, 1e-9 * std::abs(trace)) << isa;
+  }
+}
+
+// Slopes in double precision are those in single precision, to its digits.
+TEST(FlightKernel, ExactSlopesAgreeWithQuickOnes) {
+  Setting s;
+  std::vector<double> constants;
+  ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.01), constants);
+  ChunkResult quick, exact;
+  evaluate_chunk(task, quick);
+  task.exact = true;
+  evaluate_chunk(task, exact);
+  EXPECT_NEAR(quick.cost, exact.cost, 1e-12 * exact.cost);
+  double largest = 0, apart = 0;
+  for (std::size_t i = 0; i < exact.A.size(); ++i) {
+    largest = std::max(largest, std::abs(exact.A[i]));
+    apart = std::max(apart, std::abs(exact.A[i] - quick.A[i]));
+  }
+  EXPECT_LT(apart, 1e-6 * largest);
+  EXPECT_GT(apart, 0.0);
 }
 
 TEST(FlightKernel, GradientIsThatOfTheCost) {

@@ -37,14 +37,12 @@ class ChunkRun {
       for (int part = 0; part < parts; ++part) {
         const double from = t[i] + part * h;
         if (task_.shift == 0) {
-          flight_.step_in_place(x, from, h, rate);
-          rate = flight_.rate(x, from + h);
+          flight_.step_on(x, from, h, rate);
           continue;
         }
         const FlightState<S> before = x;
         const BodyRate<S> rate_before = rate;
-        flight_.step_in_place(x, from, h, rate);
-        rate = flight_.rate(x, from + h);
+        flight_.step_on(x, from, h, rate);
         const double to = part + 1 == parts ? t[i + 1] : from + h;
         while (delayed_row < rows_end() && t[delayed_row] - task_.shift < to) {
           interpolated_channels(delayed_row, (t[delayed_row] - task_.shift - from) / h, h, before,

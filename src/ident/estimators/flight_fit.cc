@@ -14,6 +14,8 @@ namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
+// Slopes in single precision leave the cost this far above its minimum.
+constexpr double kSinglePrecision = 1e-4;
 // A step that promises less than this fall of the cost is taken without looking back while noise is
 // estimated.
 constexpr double kNear = 25.0;
@@ -237,7 +239,11 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     else
       u = minimise_shared(*smoother, u, 0.1, 1, &fit.steps);
   }
-  u = minimise_shared(*smoother, u, options.tolerance, 30, &fit.steps, &fit.cost);
+  u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), 30, &fit.steps, &fit.cost);
+  if (options.tolerance < kSinglePrecision) {
+    smoother->set_exact(true);
+    u = minimise_shared(*smoother, u, options.tolerance, 30, &fit.steps, &fit.cost);
+  }
   const ReducedSystem system = smoother->stands_at(u) ? smoother->relinearize() : smoother->linearize(u);
   smoother->accept();
   fit.u = u;

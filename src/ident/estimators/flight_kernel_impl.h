@@ -60,8 +60,9 @@ class ChunkKernel {
       if (kind_of(i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
     for (const Seed& seed : task_.seeds)
       if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
-    // The rest of the packs of dual numbers stays empty: sweeps are 32 or 16 columns wide.
-    dual_packs_ = 2 * ((columns_ + 15) / 16);
+    // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
+    // precision.
+    dual_packs_ = task_.exact ? 4 * ((columns_ + 31) / 32) : 2 * ((columns_ + 15) / 16);
     while (columns_ < 8 * dual_packs_) column_[columns_++] = {-1, 0, Kind::dual, 0.0};
     for (int i = 0; i < layout.size; ++i) {
       const int first = kind_of(i) == Kind::position   ? layout.x
@@ -82,8 +83,14 @@ class ChunkKernel {
     return false;
   }
 
-  // A pack of its own type for each instruction set, and aligned on the heap.
+  // Packs of types of their own for each instruction set, and aligned on the heap.
   struct alignas(64) AlignedPack {
+    Pack8 pack;
+  };
+  struct alignas(64) AlignedCovariance {
+    Pack8 pack;
+  };
+  struct alignas(64) AlignedSum {
     Pack8 pack;
   };
 
@@ -128,11 +135,13 @@ class ChunkKernel {
     bool first = true;
     while (pack < dual_packs_) {
       const int left = dual_packs_ - pack;
-      // Two widths only: each one is a whole copy of the model in the program.
-      if (left >= 4)
-        sweep<2>(pack, first), pack += 4;
+      // Three kinds only: each one is a whole copy of the model in the program.
+      if (task_.exact)
+        sweep<Dual<4, Isa, double>>(pack, first), pack += 4;
+      else if (left >= 4)
+        sweep<Dual<2, Isa, float>>(pack, first), pack += 4;
       else
-        sweep<1>(pack, first), pack += 2;
+        sweep<Dual<1, Isa, float>>(pack, first), pack += 2;
       first = false;
     }
     analytic_gradient();
@@ -144,10 +153,9 @@ class ChunkKernel {
     if (v.size() != n) v = std::vector<double>(n);
   }
 
-  template <int K>
+  template <class S>
   void sweep(int pack, bool first) {
-    using S = Dual<K, Isa, float>;
-    constexpr int packs = 2 * K;
+    constexpr int packs = S::width / 8;
     const int from = 8 * pack, to = from + S::width;
     EffectMask effects = task_.active;  // those off their null values, and those of this sweep's directions
     S p[kParameterCount], bias[3];
@@ -194,12 +202,16 @@ class ChunkKernel {
   // Eight derivatives in double precision.
   template <class S>
   static Pack8 doubles(const S& x, int pack) {
-    using Half = float __attribute__((vector_size(32)));
-    Half half;
-    __builtin_memcpy(&half,
-                     reinterpret_cast<const char*>(&x.d) + static_cast<std::size_t>(pack) * sizeof(Half),
-                     sizeof(Half));
-    return __builtin_convertvector(half, Pack8);
+    if constexpr (S::lanes == 8) {
+      return x.d[pack];
+    } else {
+      using Half = float __attribute__((vector_size(32)));
+      Half half;
+      __builtin_memcpy(&half,
+                       reinterpret_cast<const char*>(&x.d) + static_cast<std::size_t>(pack) * sizeof(Half),
+                       sizeof(Half));
+      return __builtin_convertvector(half, Pack8);
+    }
   }
 
   template <class S>
@@ -276,17 +288,24 @@ class ChunkKernel {
     return x;
   }
 
-  // A = J'J by blocks of 8 x 8.
+  // A = J'J by blocks of 8 x 8, over tiles of samples that stay in the nearest memory.
   void square() {
-    const auto stride = static_cast<std::size_t>(packs_);
-    for (int bi = 0; bi < packs_; ++bi) {
-      for (int bk = 0; bk <= bi; ++bk) {
-        Pack8 sum[8] = {};
-        const Pack8 *left = J_ + bi, *right = J_ + bk;
-        for (std::size_t s = 0; s < samples_; ++s, left += stride, right += stride) {
-          const Pack8 a = *left, b = *right;
-          for (int i = 0; i < 8; ++i) sum[i] += a[i] * b;
-        }
+    constexpr std::size_t tile = 32;
+    const int blocks = packs_ * (packs_ + 1) / 2;
+    Pack8* sums = &table<AlignedSum>(static_cast<std::size_t>(8 * blocks))->pack;
+    for (int i = 0; i < 8 * blocks; ++i) sums[i] = Pack8{};
+    for (std::size_t from = 0; from < samples_; from += tile) {
+      const std::size_t to = from + tile < samples_ ? from + tile : samples_;
+      Pack8* sum = sums;
+      for (int bi = 0; bi < packs_; ++bi) {
+        int bk = 0;
+        for (; bk + 1 <= bi; bk += 2, sum += 16) add_products<2>(from, to, bi, bk, sum);
+        if (bk == bi) add_products<1>(from, to, bi, bk, sum), sum += 8;
+      }
+    }
+    const Pack8* sum = sums;
+    for (int bi = 0; bi < packs_; ++bi)
+      for (int bk = 0; bk <= bi; ++bk, sum += 8)
         for (int i = 0; i < 8; ++i)
           for (int k = 0; k < 8; ++k) {
             const int r = column_[8 * bi + i].external, c = column_[8 * bk + k].external;
@@ -294,15 +313,30 @@ class ChunkKernel {
             out_.A.data()[r * d_ + c] = sum[i][k];
             out_.A.data()[c * d_ + r] = sum[i][k];
           }
+  }
+
+  // Products of pack bi with the N packs from bk on, summed over samples.
+  template <int N>
+  void add_products(std::size_t from, std::size_t to, int bi, int bk, Pack8* sum) const {
+    const auto stride = static_cast<std::size_t>(packs_);
+    Pack8 s[8 * N];
+    for (int i = 0; i < 8 * N; ++i) s[i] = sum[i];
+    for (std::size_t n = from; n < to; ++n) {
+      const Pack8* row = J_ + n * stride;
+      const double* left = reinterpret_cast<const double*>(row + bi);
+      for (int m = 0; m < N; ++m) {
+        const Pack8 right = row[bk + m];
+        for (int i = 0; i < 8; ++i) s[8 * m + i] += left[i] * right;
       }
     }
+    for (int i = 0; i < 8 * N; ++i) sum[i] = s[i];
   }
 
   // Leverage of each sample with respect to the local state: j P j'.
   void leverages() {
     const auto stride = static_cast<std::size_t>(packs_);
     const int n = task_.layout.size;
-    AlignedPack* P = table<AlignedPack>(static_cast<std::size_t>(n) * stride);
+    AlignedCovariance* P = table<AlignedCovariance>(static_cast<std::size_t>(n) * stride);
     for (int a = 0; a < n; ++a) {
       Pack8* row = &P[static_cast<std::size_t>(a) * stride].pack;
       for (std::size_t k = 0; k < stride; ++k) row[k] = Pack8{};

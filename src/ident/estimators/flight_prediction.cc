@@ -11,15 +11,8 @@ namespace {
 
 // The rows [begin, end) of an arc as an arc of its own, with the gyro bias taken off.
 FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const std::array<double, 3>& bias) {
-  FlightArc out;
+  FlightArc out = arc.piece(begin, end);
   out.log = 0;
-  const auto range = [&](const auto& v, std::size_t width) {
-    return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
-                                     v.begin() + static_cast<std::ptrdiff_t>(end * width));
-  };
-  out.t = range(arc.t, 1), out.y = range(arc.y, kChannels), out.q = range(arc.q, 4),
-  out.start = range(arc.start, 1);
-  out.inputs = arc.inputs;
   for (std::size_t i = 0; i < out.rows(); ++i)
     for (std::size_t k = 0; k < 3; ++k) out.y[i * kChannels + k] -= bias[k];
   return out;
@@ -79,8 +72,7 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
                                                            const PredictionOptions& options) {
   const std::vector<double> p = theta.p(u);
   const Theta fixed(p, {}, 1, false);
-  FlightRecord past = record;
-  past.arcs.clear();
+  FlightRecord past = without_arcs(record);
   past.logs = 1;
   const std::vector<Start> starts = window_starts(record, options);
   std::vector<std::vector<PredictionWindow>> all(options.horizons.size());
@@ -103,7 +95,7 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     const FlightArc& arc = record.arcs[starts[w].arc];
     const double until = arc.t[starts[w].row] + horizon;
     ChunkTask one = task;
-    one.inputs = &arc.inputs, one.gyro_bias = theta.gyro_bias(u, arc.log);
+    one.inputs = arc.inputs.get(), one.gyro_bias = theta.gyro_bias(u, arc.log);
     one.begin = starts[w].row, one.rows = arc.rows();
     one.end = static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), until) - arc.t.begin());
     one.t = arc.t.data(), one.y = arc.y.data(), one.q = arc.q.data();

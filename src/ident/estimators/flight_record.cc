@@ -163,24 +163,26 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
     for (std::size_t k = 0; k < 4; ++k) whole &= std::isfinite(arc.q[4 * i + k] = log.q_WB[k][begin + i]);
     for (std::size_t k = 0; k < 3; ++k) arc.y[i * kChannels + kAttitude + k] = whole ? 0.0 : kNaN;
   }
-  arc.inputs.t0 = log.t.front();
+  FlightInputs inputs;
+  inputs.t0 = log.t.front();
   if (log.has_commands()) {
     for (const auto& column : log.delta) {
       std::vector<double> t, d;
       for (std::size_t i = 0; i < log.rows(); ++i)
         if (std::isfinite(column[i])) t.push_back(log.t[i]), d.push_back(column[i]);
       if (t.empty()) t = {log.t.front()}, d = {0.0};
-      arc.inputs.delta.emplace_back(std::move(t), std::move(d));
+      inputs.delta.emplace_back(std::move(t), std::move(d));
     }
     for (std::size_t n = 0; n < log.Omega.size() && n < vehicle.rotors.size(); ++n)
       put(log.Omega[n], kRotorChannel + static_cast<int>(n));
   }
-  arc.inputs.t = arc.t;
-  for (const auto& column : log.Omega) arc.inputs.Omega.push_back(interpolated(arc.t, cut(column)));
+  inputs.t = arc.t;
+  for (const auto& column : log.Omega) inputs.Omega.push_back(interpolated(arc.t, cut(column)));
   if (!log.vbat.empty()) {
-    arc.inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
-    for (double& v : arc.inputs.voltage_ratio) v = std::max(v / v0, 0.05);
+    inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
+    for (double& v : inputs.voltage_ratio) v = std::max(v / v0, 0.05);
   }
+  arc.inputs = std::make_shared<const FlightInputs>(std::move(inputs));
   return arc;
 }
 
@@ -238,7 +240,7 @@ void set_noise(FlightRecord& record) {
 // Motor states by simulating the commands; measured speeds replace the simulated ones.
 void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
   const EffectSet<double> effects(p, active_effects(p));
-  Flight<double, EffectSet<double>> flight(vehicle, p, effects, arc.inputs);
+  Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
   const std::size_t rotors = vehicle.rotors.size();
   std::array<MotorState<double>, kMaxRotors> motors{};
   for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
@@ -294,7 +296,7 @@ void set_start(FlightRecord& record, std::span<const double> p) {
         for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
       }
     }
-    if (arc.inputs.commanded()) set_motor_start(arc, *record.vehicle, p);
+    if (arc.inputs->commanded()) set_motor_start(arc, *record.vehicle, p);
   }
 }
 
@@ -341,27 +343,33 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   return record;
 }
 
+FlightRecord without_arcs(const FlightRecord& record) {
+  return {record.vehicle, {},           record.logs,     record.signals,
+          record.layout,  record.sigma, record.interval, record.duration,
+          record.warnings};
+}
+
+FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
+  FlightArc out;
+  out.log = log;
+  const auto range = [&](const auto& v, std::size_t width) {
+    return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
+                                     v.begin() + static_cast<std::ptrdiff_t>(end * width));
+  };
+  out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.start = range(start, 1);
+  out.inputs = inputs;
+  return out;
+}
+
 RecordSplit split_record(const FlightRecord& record, double training_share) {
-  RecordSplit split{record, record};
-  split.training.arcs.clear(), split.held_out.arcs.clear();
+  FlightRecord empty = without_arcs(record);
+  RecordSplit split{empty, empty};
   for (const FlightArc& arc : record.arcs) {
     const double border = arc.t.front() + training_share * (arc.t.back() - arc.t.front());
     const auto cut =
         static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), border) - arc.t.begin());
-    const auto part = [&](std::size_t begin, std::size_t end) {
-      FlightArc piece;
-      piece.log = arc.log;
-      const auto range = [&](const auto& v, std::size_t width) {
-        return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
-                                         v.begin() + static_cast<std::ptrdiff_t>(end * width));
-      };
-      piece.t = range(arc.t, 1), piece.y = range(arc.y, kChannels), piece.q = range(arc.q, 4),
-      piece.start = range(arc.start, 1);
-      piece.inputs = arc.inputs;
-      return piece;
-    };
-    if (cut >= 8) split.training.arcs.push_back(part(0, cut));
-    if (arc.rows() - cut >= 8) split.held_out.arcs.push_back(part(cut, arc.rows()));
+    if (cut >= 8) split.training.arcs.push_back(arc.piece(0, cut));
+    if (arc.rows() - cut >= 8) split.held_out.arcs.push_back(arc.piece(cut, arc.rows()));
   }
   for (FlightRecord* half : {&split.training, &split.held_out}) {
     half->duration = 0;

@@ -2,6 +2,7 @@
 // start from.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,13 +15,15 @@ namespace ident {
 /// An uninterrupted piece of one log.
 struct FlightArc {
   int log = 0;
-  std::vector<double> t;  ///< s
-  std::vector<double> y;  ///< [row][kChannels], NaN where not sampled
-  std::vector<double> q;  ///< [row][4] measured attitude
-  FlightInputs inputs;
-  std::vector<FlightState<double>> start;  ///< state of each row as read off the measurements
+  std::vector<double> t;                       ///< s
+  std::vector<double> y;                       ///< [row][kChannels], NaN where not sampled
+  std::vector<double> q;                       ///< [row][4] measured attitude
+  std::shared_ptr<const FlightInputs> inputs;  ///< of the whole log; pieces of an arc share them
+  std::vector<FlightState<double>> start;      ///< state of each row as read off the measurements
 
   std::size_t rows() const { return t.size(); }
+  /// The rows [begin, end) as an arc of their own.
+  FlightArc piece(std::size_t begin, std::size_t end) const;
 };
 
 /// Whether a channel group was logged at all.
@@ -49,6 +52,9 @@ struct RecordOptions {
 /// them). Throws DataError when nothing is left to estimate from.
 FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
                                 std::span<const FlightLog> logs, const RecordOptions& options = {});
+
+/// The record without its arcs.
+FlightRecord without_arcs(const FlightRecord& record);
 
 /// The arcs cut at `held_out` of each log's time: the part before, the part after.
 struct RecordSplit {

@@ -47,12 +47,12 @@ std::vector<Track> rotor_speeds(const FlightArc& arc, const Vehicle& vehicle, st
   const std::size_t rotors = vehicle.rotors.size();
   std::vector<Track> out(rotors, Track(arc.rows(), 0.0));
   if (measured) {
-    for (std::size_t n = 0; n < rotors && n < arc.inputs.Omega.size(); ++n)
-      if (arc.inputs.Omega[n].size() == arc.rows()) out[n] = arc.inputs.Omega[n];
+    for (std::size_t n = 0; n < rotors && n < arc.inputs->Omega.size(); ++n)
+      if (arc.inputs->Omega[n].size() == arc.rows()) out[n] = arc.inputs->Omega[n];
     return out;
   }
   const EffectSet<double> effects(p, active_effects(p));
-  Flight<double, EffectSet<double>> flight(vehicle, p, effects, arc.inputs);
+  Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
   std::array<MotorState<double>, kMaxRotors> motors{};
   for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
   for (std::size_t i = 0; i < arc.rows(); ++i) {

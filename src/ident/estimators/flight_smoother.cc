@@ -61,7 +61,7 @@ ChunkTask FlightSmoother::task(std::size_t k, const VectorXd& u, const std::vect
   const FlightArc& arc = record_->arcs[static_cast<std::size_t>(place.arc)];
   ChunkTask task;
   task.vehicle = record_->vehicle;
-  task.inputs = &arc.inputs;
+  task.inputs = arc.inputs.get();
   task.layout = record_->layout;
   task.p = p;
   task.gyro_bias = theta_->gyro_bias(u, arc.log);
@@ -86,6 +86,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage) {
     ChunkTask one = task(k, u, p, seeds);
     one.weight = weight.data();
     one.jacobian = jacobian;
+    one.exact = exact_;
     chunk::RowMatrix covariance;
     if (leverage) {
       covariance = accepted_.P[k];

@@ -78,6 +78,8 @@ class FlightSmoother {
   void set_noise(const NoiseModel& noise);
   /// A delay of rates and attitude about which to linearise, s.
   void set_shift(double shift) { shift_ = shift; }
+  /// Slopes in double precision, for a fit to the last digit of exact data.
+  void set_exact(bool exact) { exact_ = exact; }
   /// Residuals beyond this many standard deviations count linearly.
   void set_huber(double huber) { huber_ = huber; }
 
@@ -151,7 +153,7 @@ class FlightSmoother {
   double chunk_seconds_;
   int threads_;
   double shift_ = 0.0, huber_ = 4.0;
-  bool stands_ = false;
+  bool stands_ = false, exact_ = false;
   std::vector<ChunkPlace> places_;
   std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation

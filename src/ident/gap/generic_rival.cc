@@ -42,8 +42,8 @@ MatrixXd features(const FlightRecord& record, const FlightSmoother& smoother, do
     }
     const double z = std::max(record.vehicle->ground_z - x.body.x_W[2], 0.0);
     f.insert(f.end(), {thrust * thrust, thrust / (0.05 + z * z),
-                       at(arc.inputs.voltage_ratio, places[k].begin) * thrust,
-                       (arc.t[places[k].begin] - arc.inputs.t0) * thrust});
+                       at(arc.inputs->voltage_ratio, places[k].begin) * thrust,
+                       (arc.t[places[k].begin] - arc.inputs->t0) * thrust});
     // Memory: a swinging load, air that has to be set in motion.
     for (const std::size_t back : {1UL, 3UL}) {
       const bool there = k >= back && places[k - back].arc == places[k].arc;

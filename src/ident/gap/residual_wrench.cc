@@ -87,7 +87,8 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
       total += ratio * ratio;
     }
     const double z = record.vehicle->ground_z - x.body.x_W[2];
-    const double ratio = arc.inputs.voltage_ratio.empty() ? 1.0 : mean_over(place, arc.inputs.voltage_ratio);
+    const double ratio =
+        arc.inputs->voltage_ratio.empty() ? 1.0 : mean_over(place, arc.inputs->voltage_ratio);
     speed[k] = v_B.norm(), climb[k] = -x.body.v_W[2], tilt[k] = std::acos(std::clamp(R(2, 2), -1.0, 1.0));
     rates[k] = w.norm(), collective[k] = total / static_cast<double>(N), height[k] = z, voltage[k] = ratio;
   }

@@ -49,6 +49,13 @@ struct Wrench {
   Vec3<S> F_B, M_B;  ///< N, and N m about the origin; without gravity
 };
 
+/// What the rotors give where it does not depend on the body's motion: force, moment of thrust, drag and
+/// reaction, and sigma times their angular momentum.
+template <class S>
+struct RotorSums {
+  Vec3<S> F_B, M_B, h_B;
+};
+
 /// The body with one set of constants. `p` is the parameter vector (model/parameters.h); both it and the
 /// vehicle must outlive the object. Nothing here depends on the state: build once per set of constants.
 template <class S, class Effects = NoEffects>
@@ -97,7 +104,7 @@ class Body {
   Wrench<S> wrench(const BodyState<S>& state, const Mat3<S>& R_WB,
                    std::span<const MotorState<S>> motors) const {
     const S zero(0.0);
-    if (plain_) return plain_wrench(state, motors);
+    if (plain_) return plain_wrench(state, rotor_sums(motors));
     Wrench<S> sum{Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
     const bool flow = (effects_->touches() & kTouchFlow) != 0;
     Vec3<S> v_air_B(zero, zero, zero);
@@ -157,9 +164,12 @@ class Body {
     return sum;
   }
 
-  /// Equations (3) and (4) when all axes are constants and nothing acts on the flow: sums over the rotors of
-  /// Omega^2, s Omega^2, s Omega and s Omega' with constant vectors.
-  Wrench<S> plain_wrench(const BodyState<S>& state, std::span<const MotorState<S>> motors) const {
+  /// Whether all axes are constants and nothing acts on the flow, so that `rotor_sums` is all of the rotors.
+  bool plain() const { return plain_; }
+
+  /// Equations (3) and (4) for a plain body but for the turning of the rotors' momentum: sums over the rotors
+  /// of Omega^2, s Omega^2, s Omega and s Omega' with constant vectors.
+  RotorSums<S> rotor_sums(std::span<const MotorState<S>> motors) const {
     const S zero(0.0);
     Vec3<S> F(zero, zero, zero), rF(zero, zero, zero), Q(zero, zero, zero), h(zero, zero, zero),
         h_dot(zero, zero, zero);
@@ -173,24 +183,44 @@ class Body {
       if (spinning_)
         add(h, arms_[n].spin_B, motors[n].Omega), add(h_dot, arms_[n].spin_B, motors[n].Omega_dot);
     }
-    Wrench<S> total;
+    RotorSums<S> sums;
     for (int i = 0; i < 3; ++i) {
-      total.F_B[i] = p_[param::kT] * F[i];                          // (3)
-      total.M_B[i] = p_[param::kT] * rF[i] - p_[param::kQ] * Q[i];  // (4)
+      sums.F_B[i] = p_[param::kT] * F[i];                          // (3)
+      sums.M_B[i] = p_[param::kT] * rF[i] - p_[param::kQ] * Q[i];  // (4)
     }
     if (spinning_) {
-      const double sigma = vehicle_->signs == Signs::first_principles ? 1.0 : -1.0;  // erratum 1
-      const Vec3<S> turning = cross(state.w_B, h);
-      for (int i = 0; i < 3; ++i) total.M_B[i] -= (sigma * Jp_) * (h_dot[i] + turning[i]);  // (4)
+      const S momentum = (vehicle_->signs == Signs::first_principles ? 1.0 : -1.0) * Jp_;  // erratum 1
+      for (int i = 0; i < 3; ++i) sums.M_B[i] -= momentum * h_dot[i], sums.h_B[i] = momentum * h[i];  // (4)
     }
-    return total;
+    return sums;
   }
 
   /// Equations (5) to (7), with accelerations from outside if there are any.
   BodyRate<S> rate(const BodyState<S>& state, std::span<const MotorState<S>> motors,
                    const Disturbance<S>* outside = nullptr) const {
     const Mat3<S> R_WB = rotation(state.q_WB);
-    const Wrench<S> total = wrench(state, R_WB, motors);
+    return rate_under(wrench(state, R_WB, motors), state, R_WB, outside);
+  }
+  /// The same for a plain body.
+  BodyRate<S> rate(const BodyState<S>& state, const RotorSums<S>& rotors,
+                   const Disturbance<S>* outside = nullptr) const {
+    return rate_under(plain_wrench(state, rotors), state, rotation(state.q_WB), outside);
+  }
+
+  const S& mass() const { return m_; }
+  const Mat3<S>& J() const { return J_; }
+  const Vec3<S>& centre_of_gravity() const { return c_B_; }
+  double Omega_hover() const { return Omega_hover_; }
+
+ private:
+  Wrench<S> plain_wrench(const BodyState<S>& state, const RotorSums<S>& rotors) const {
+    Wrench<S> total{rotors.F_B, rotors.M_B};
+    if (spinning_) total.M_B -= cross(state.w_B, rotors.h_B);  // (4)
+    return total;
+  }
+
+  BodyRate<S> rate_under(const Wrench<S>& total, const BodyState<S>& state, const Mat3<S>& R_WB,
+                         const Disturbance<S>* outside) const {
     const Vec3<S>& w = state.w_B;
     BodyRate<S> out;
     Vec3<S> M = total.M_B - cross(w, times(J_, w));
@@ -211,12 +241,6 @@ class Body {
     return out;
   }
 
-  const S& mass() const { return m_; }
-  const Mat3<S>& J() const { return J_; }
-  const Vec3<S>& centre_of_gravity() const { return c_B_; }
-  double Omega_hover() const { return Omega_hover_; }
-
- private:
   static Mat3<S> inertia_matrix(std::span<const S> p) {
     Mat3<S> J;
     J(0, 0) = p[param::Jxx], J(1, 1) = p[param::Jyy], J(2, 2) = p[param::Jzz];

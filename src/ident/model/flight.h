@@ -56,27 +56,23 @@ class Flight {
   void feel_outside(bool on) { outside_ = on; }
   const S& sensor_delay() const { return delays_.sensor_delay; }
 
-  /// Moves a state h seconds on; `at_start` is its rate.
-  void step_in_place(FlightState<S>& x, double t, double h, const BodyRate<S>& at_start) {
+  /// Moves a state h seconds on; `rate` is that at its start, and then that at its end.
+  void step_on(FlightState<S>& x, double t, double h, BodyRate<S>& rate) {
     std::array<MotorState<S>, kMaxRotors> middle;
     advance_motors(x.motors, t, h / 2, middle);
     advance_motors(middle, t + h / 2, h / 2, x.motors);
     const std::span<const MotorState<S>> mid(middle.data(), rotors_), end(x.motors.data(), rotors_);
-    const BodyRate<S>& k1 = at_start;
-    const Disturbance<S>* outside = outside_ ? &x.outside : nullptr;
-    const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
-    const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid, outside);
-    const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end, outside);
-    x.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
-    x.body.w_B = combined(x.body.w_B, h, k1.w_dot_B, k2.w_dot_B, k3.w_dot_B, k4.w_dot_B);
-    x.body.v_W = combined(x.body.v_W, h, k1.v_dot_W, k2.v_dot_W, k3.v_dot_W, k4.v_dot_W);
-    x.body.x_W = combined(x.body.x_W, h, k1.x_dot_W, k2.x_dot_W, k3.x_dot_W, k4.x_dot_W);
+    if (body_.plain())
+      runge_kutta(x, h, rate, body_.rotor_sums(mid), body_.rotor_sums(end));
+    else
+      runge_kutta(x, h, rate, mid, end);
   }
 
   /// The state h seconds on; `at_start` is the rate of `x`.
   FlightState<S> step(const FlightState<S>& x, double t, double h, const BodyRate<S>& at_start) {
     FlightState<S> next = x;
-    step_in_place(next, t, h, at_start);
+    BodyRate<S> rate = at_start;
+    step_on(next, t, h, rate);
     return next;
   }
 
@@ -105,6 +101,22 @@ class Flight {
   }
 
  private:
+  // `Rotors`: the motors, or what they sum up to.
+  template <class Rotors>
+  void runge_kutta(FlightState<S>& x, double h, BodyRate<S>& rate, const Rotors& mid,
+                   const Rotors& end) const {
+    const BodyRate<S>& k1 = rate;
+    const Disturbance<S>* outside = outside_ ? &x.outside : nullptr;
+    const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
+    const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid, outside);
+    const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end, outside);
+    x.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
+    x.body.w_B = combined(x.body.w_B, h, k1.w_dot_B, k2.w_dot_B, k3.w_dot_B, k4.w_dot_B);
+    x.body.v_W = combined(x.body.v_W, h, k1.v_dot_W, k2.v_dot_W, k3.v_dot_W, k4.v_dot_W);
+    x.body.x_W = combined(x.body.x_W, h, k1.x_dot_W, k2.x_dot_W, k3.x_dot_W, k4.x_dot_W);
+    rate = body_.rate(x.body, end, outside);
+  }
+
   static BodyState<S> moved(const BodyState<S>& x, const BodyRate<S>& k, double h) {
     return {sum(x.q_WB, h, k.q_dot), sum(x.w_B, h, k.w_dot_B), sum(x.v_W, h, k.v_dot_W),
             sum(x.x_W, h, k.x_dot_W)};

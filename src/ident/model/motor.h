@@ -66,11 +66,18 @@ MotorTransition<S> motor_transition(const S& omega_m, const S& zeta_m, double h)
   return {C + sigma * D, D, -(omega_m * omega_m) * D, C - sigma * D};  // (2)
 }
 
-/// Last row with t <= at, the first row if there is none; n > 0. Templated on the scalar so that code
-/// compiled for one instruction set never calls that of another (core/dual.h).
+/// Last row with t <= at, the first row if there is none; n > 0. Quick where rows are about evenly spaced.
+/// Templated on the scalar so that code compiled for one instruction set never calls that of another
+/// (core/dual.h).
 template <class S>
 std::size_t row_before(const double* t, std::size_t n, double at) {
-  std::size_t low = 0, high = n;
+  if (n < 2 || !(at >= t[1])) return 0;
+  if (at >= t[n - 1]) return n - 1;
+  std::size_t low = static_cast<std::size_t>((at - t[0]) / (t[n - 1] - t[0]) * static_cast<double>(n - 1));
+  if (low > n - 2) low = n - 2;
+  std::size_t high = low + 1, stride = 1;
+  while (t[low] > at) high = low, low = low > stride ? low - stride : 0, stride *= 2;
+  while (t[high] <= at) low = high, high = high + stride < n - 1 ? high + stride : n - 1, stride *= 2;
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
     (t[middle] <= at ? low : high) = middle;
