@@ -98,8 +98,7 @@ struct FastFit {
 };
 
 std::unique_ptr<FlightSmoother> segments(const Problem& problem, int threads) {
-  NoiseModel noise;
-  noise.sigma = problem.record.sigma;
+  const NoiseModel noise = initial_noise(problem.record);
   auto smoother = std::make_unique<FlightSmoother>(problem.record, *problem.theta, noise, kSegment, threads);
   smoother->unlink();
   smoother->set_huber(1e9);

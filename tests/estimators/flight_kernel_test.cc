@@ -174,7 +174,7 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   options.estimate_noise = false;
   options.robust = false;
   NoiseModel noise = initial_noise(record);
-  for (std::size_t i = 0; i < 3; ++i) noise.w_dot[i].sigma = noise.v_dot[i].sigma = 0;
+  for (std::size_t i = 0; i < 3; ++i) noise.air[0].w_dot[i].sigma = noise.air[0].v_dot[i].sigma = 0;
   noise.q_motor = 0;
   options.noise = noise;
   options.chunk_seconds = 0.4;

@@ -28,8 +28,8 @@ TEST(FlightSmoother, ConstantProfileTakesUpTheMomentOfAnOffCentreMass) {
   const FlightRecord record = make_flight_record(model, p, logs);
   const Theta theta(p, {}, 1, true);
   NoiseModel noise = initial_noise(record);
-  noise.w_dot.fill({0.5, 1.0});
-  noise.v_dot.fill({0.1, 1.0});
+  noise.air[0].w_dot.fill({0.5, 1.0});
+  noise.air[0].v_dot.fill({0.1, 1.0});
   FlightSmoother smoother(record, theta, noise, 0.1);
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
   smoother.settle(u, 3);

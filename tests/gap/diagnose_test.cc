@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ident/io/vehicle_file.h"
 #include "ident/model/simulate.h"
 
@@ -46,6 +48,33 @@ TEST(Diagnosis, WithheldRotorDragIsNamedAndWithoutItInTheCatalogueNothingElseIs)
   GapOptions options;
   options.exclude = {"rotor_drag"};
   EXPECT_EQ(diagnose_gap(model, logs, options).result.extra["verdict"]["status"], "unknown");
+}
+
+// Linearised at zero a long delay gains most and yet looks as if its size changed from moment to moment.
+TEST(Diagnosis, LongMotorDelayIsFoundThoughItIsFarFromLinear) {
+  Vehicle truth = published();
+  const Vehicle model = truth;
+  truth.parameters["motor_delay.tau"] = {0.02, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 3)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"motor_delay"}));
+  EXPECT_NEAR(found.adopted.parameters.at("motor_delay.tau").value, 0.02, 1e-3);
+}
+
+// A payload too light to be weighed shows as a shifted centre of gravity only: both are named. Where the mass
+// is known well it is the payload.
+TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {
+  Vehicle model = published(), truth = model;
+  truth.parameters["payload.m"] = {0.002, {}};
+  truth.parameters["payload.x"] = {0.1, {}};
+  const FlightLog log = flight_of(truth, 4);
+  EXPECT_EQ(verdict_of(model, log)["effects"], nlohmann::ordered_json({"payload"}));
+  model.parameters.at("m").std = 0.01;
+  const auto verdict = verdict_of(model, log);
+  std::vector<std::string> named = verdict["effects"];
+  for (const auto& other : verdict["confused_with"]) named.push_back(other);
+  std::ranges::sort(named);
+  EXPECT_EQ(named, (std::vector<std::string>{"cg_offset", "payload"})) << verdict["sentence"];
 }
 
 }  // namespace

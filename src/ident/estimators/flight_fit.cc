@@ -122,8 +122,10 @@ NoiseModel initial_noise(const FlightRecord& record) {
   }
   if (v == 0) v = 2.0;
   if (w == 0) w = 5.0;
-  noise.w_dot.fill({0.2 * w, 0.1});
-  noise.v_dot.fill({0.1 * v, 0.5});
+  AirNoise air;
+  air.w_dot.fill({0.2 * w, 0.1});
+  air.v_dot.fill({0.1 * v, 0.5});
+  noise.air.assign(static_cast<std::size_t>(record.logs), air);
   noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
   return noise;
 }
@@ -157,8 +159,7 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise) {
                               2.0 / 3.0));
     }
   };
-  shorten(kGyro, noise.w_dot);
-  shorten(kVelocity, noise.v_dot);
+  for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
   return std::clamp(h, std::max(4.0 * record.interval, 0.03), 0.25);
 }
 

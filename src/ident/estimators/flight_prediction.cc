@@ -12,7 +12,6 @@ namespace {
 // The rows [begin, end) of an arc as an arc of its own, with the gyro bias taken off.
 FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const std::array<double, 3>& bias) {
   FlightArc out = arc.piece(begin, end);
-  out.log = 0;
   for (std::size_t i = 0; i < out.rows(); ++i)
     for (std::size_t k = 0; k < 3; ++k) out.y[i * kChannels + k] -= bias[k];
   return out;
@@ -73,7 +72,6 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
   const std::vector<double> p = theta.p(u);
   const Theta fixed(p, {}, 1, false);
   FlightRecord past = without_arcs(record);
-  past.logs = 1;
   const std::vector<Start> starts = window_starts(record, options);
   std::vector<std::vector<PredictionWindow>> all(options.horizons.size());
   if (starts.empty()) return all;
@@ -102,8 +100,8 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     one.x0 = ends[w].x;
     one.x0.outside = {};  // no model predicts gusts: they count in the floor
     RowMatrix P = ends[w].P;
-    expect_outside(P, task.layout.w_dot, noise.w_dot, horizon);
-    expect_outside(P, task.layout.v_dot, noise.v_dot, horizon);
+    expect_outside(P, task.layout.w_dot, noise.in_log(arc.log).w_dot, horizon);
+    expect_outside(P, task.layout.v_dot, noise.in_log(arc.log).v_dot, horizon);
     for (int n = 0; n < task.layout.rotors && task.layout.motors >= 0; ++n)
       P(task.layout.motors + n, task.layout.motors + n) += noise.q_motor * horizon / 2;
     one.covariance = P.data();

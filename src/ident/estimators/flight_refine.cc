@@ -244,8 +244,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   result.fit["seconds"] = record.duration;
   result.fit["steps"] = fit.steps;
   result.fit["segment_seconds"] = fit.chunk_seconds;
-  result.fit["process_noise"] = {{"angular_acceleration", process_json(fit.noise.w_dot)},
-                                 {"acceleration", process_json(fit.noise.v_dot)}};
+  result.fit["process_noise"] = nlohmann::ordered_json::array();  // of each log
+  for (const AirNoise& air : fit.noise.air)
+    result.fit["process_noise"].push_back(
+        {{"angular_acceleration", process_json(air.w_dot)}, {"acceleration", process_json(air.v_dot)}});
   nlohmann::ordered_json levels;
   for (int c = 0; c < kChannels; ++c)
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)

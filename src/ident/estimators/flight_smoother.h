@@ -135,7 +135,8 @@ class FlightSmoother {
   Eigen::VectorXd defect(std::size_t k) const;
   Eigen::VectorXd link_weight(std::size_t k) const;
   Eigen::VectorXd carried(std::size_t k) const;
-  Eigen::VectorXd start_information() const;
+  Eigen::VectorXd start_information(std::size_t k) const;
+  const AirNoise& air_of(std::size_t k) const;
   Eigen::VectorXd outside(std::size_t k) const;
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;

@@ -26,27 +26,33 @@ double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma +
 
 }  // namespace
 
+const AirNoise& FlightSmoother::air_of(std::size_t k) const {
+  return noise_.in_log(record_->arcs[static_cast<std::size_t>(places_[k].arc)].log);
+}
+
 // Share of each state component that is left at the start of the next chunk.
 VectorXd FlightSmoother::carried(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   VectorXd share = VectorXd::Ones(layout.size);
   const double h = length(*record_, places_[k]);
+  const AirNoise& air = air_of(k);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    if (layout.w_dot >= 0) share[layout.w_dot + i] = noise_.w_dot[axis].carried(h);
-    if (layout.v_dot >= 0) share[layout.v_dot + i] = noise_.v_dot[axis].carried(h);
+    if (layout.w_dot >= 0) share[layout.w_dot + i] = air.w_dot[axis].carried(h);
+    if (layout.v_dot >= 0) share[layout.v_dot + i] = air.v_dot[axis].carried(h);
   }
   return share;
 }
 
 // Information on the state at the start of an arc, before any measurement.
-VectorXd FlightSmoother::start_information() const {
+VectorXd FlightSmoother::start_information(std::size_t k) const {
   const StateLayout& layout = record_->layout;
+  const AirNoise& air = air_of(k);
   VectorXd info = VectorXd::Zero(layout.size);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / variance(noise_.w_dot[axis]);
-    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / variance(noise_.v_dot[axis]);
+    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / variance(air.w_dot[axis]);
+    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / variance(air.v_dot[axis]);
   }
   return info;
 }
@@ -108,7 +114,7 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
       W[at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + kLeastOutside);
     }
   };
-  wanders(layout.w_dot, noise_.w_dot), wanders(layout.v_dot, noise_.v_dot);
+  wanders(layout.w_dot, air_of(k).w_dot), wanders(layout.v_dot, air_of(k).v_dot);
   const double omega_m = theta_->p(trial_u_)[param::omega_m];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const double f = noise_.q_motor * h + floor(kRotorChannel + n, 5.0);
@@ -141,7 +147,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
   const Index n = record_->layout.size, own = theta_->size(), m = shared();
   Elimination& el = trial_elimination_;
   sum = {0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)};
-  const VectorXd at_start = start_information();
+  const VectorXd at_start = start_information(begin);
   Carry carry;
   MatrixXd U;
   for (std::size_t k = begin; k < end; ++k) {

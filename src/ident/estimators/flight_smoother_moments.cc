@@ -69,7 +69,10 @@ double FlightSmoother::retune(int rounds) {
     posterior_covariances(el);
     const std::vector<VectorXd> dx = optimum();
     const VectorXd& du = dx.back();
-    std::array<ProcessMoments, 3> turn, push;
+    struct LogMoments {
+      std::array<ProcessMoments, 3> turn, push;
+    };
+    std::vector<LogMoments> logs(noise_.air.size());
     double motors = 0, motor_seconds = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
@@ -81,7 +84,8 @@ double FlightSmoother::retune(int rounds) {
           sum[static_cast<std::size_t>(i - at)].add(now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i),
                                                     el.cross[k](i, i), h);
       };
-      add(turn, layout.w_dot), add(push, layout.v_dot);
+      LogMoments& log = logs[static_cast<std::size_t>(arc.log)];
+      add(log.turn, layout.w_dot), add(log.push, layout.v_dot);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
       const auto E = chunk::E(results_[k], n);
       const VectorXd d = defect(k);
@@ -93,8 +97,10 @@ double FlightSmoother::retune(int rounds) {
       }
     }
     change = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      change = std::max({change, turn[i].update(noise_.w_dot[i]), push[i].update(noise_.v_dot[i])});
+    for (std::size_t log = 0; log < logs.size(); ++log)
+      for (std::size_t i = 0; i < 3; ++i)
+        change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i]),
+                           logs[log].push[i].update(noise_.air[log].v_dot[i])});
     if (motor_seconds > 0) {
       const double ratio = motors / motor_seconds / noise_.q_motor;
       noise_.q_motor = std::max(noise_.q_motor * std::clamp(std::pow(ratio, 1.8), 0.02, 50.0), 1e-9);
@@ -128,7 +134,7 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     score.noalias() += near.transpose() * chunk::g(results_[k]);
     F.noalias() += near.transpose() * MatrixXd(chunk::A(results_[k]) * near);
     if (k == 0 || !places_[k - 1].linked) {
-      const VectorXd info = start_information();
+      const VectorXd info = start_information(k);
       MatrixXd slope = dX[k];
       if (m > own) slope.rightCols(m - own) -= profile(k);
       score.noalias() += slope.transpose() * info.cwiseProduct(outside(k));

@@ -42,7 +42,8 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   const NoiseModel noise = initial_noise(record);
   FlightSmoother smoother(record, theta, noise, horizon);
   NoiseModel calm = noise;
-  for (std::size_t i = 0; i < 3; ++i) calm.w_dot[i].sigma = calm.v_dot[i].sigma = 0.0;
+  for (AirNoise& air : calm.air)
+    for (std::size_t i = 0; i < 3; ++i) air.w_dot[i].sigma = air.v_dot[i].sigma = 0.0;
   smoother.set_noise(calm);
   smoother.unlink();
   smoother.settle(Eigen::VectorXd::Zero(theta.size()), 4);

@@ -114,7 +114,12 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   const MatrixXd X = features(record, smoother, hover);
   const PriorTerms prior = theta.prior(fit.u);
   double push = 0;
-  for (const ColouredNoise& axis : floor.v_dot) push += axis.sigma / 3;
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  for (const AirNoise& air : floor.air)
+    for (std::size_t k = 0; k < 3; ++k) {
+      push += air.v_dot[k].sigma / (3 * static_cast<double>(floor.air.size()));
+      turn[static_cast<Index>(k)] += air.w_dot[k].sigma / static_cast<double>(floor.air.size());
+    }
   for (int channel = 0; channel < 6; ++channel) {
     const bool force = channel < 3;
     if (force ? record.layout.v_dot < 0 : record.layout.w_dot < 0) continue;
@@ -124,7 +129,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
       if (force)
         direction.tail<3>() = push * rotation(smoother.states()[k].body.q_WB).col(channel);
       else
-        direction[channel - 3] = floor.w_dot[static_cast<std::size_t>(channel - 3)].sigma;
+        direction[channel - 3] = turn[channel - 3];
       profiles.emplace_back(direction * X.row(static_cast<Index>(k)));
     }
     smoother.set_profiles(std::move(profiles));

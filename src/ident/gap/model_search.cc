@@ -8,13 +8,13 @@
 namespace ident {
 namespace {
 
-// Log prior odds against each further cause, and the price of a direction (half the log of the effective
-// sample).
+// Log prior odds against each further cause.
 constexpr double kOddsAgainst = 7.0;
-constexpr double kPricePerDirection = 2.5;
 // A cause has to explain this much, in units of the noise, to be adopted: 1 % family-wise over the catalogue.
 constexpr double kLeastGain = 19.0;
 constexpr double kPerDirection = 4.0;
+// And this much, whatever its scatter, to be tried in full.
+constexpr double kWorthATrial = 100.0;
 
 FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
                    const FlightRecord& record, const std::vector<double>& p,
@@ -37,7 +37,7 @@ FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> a
 // be whiter.
 double evidence(const SetGain& set, double stretch) {
   const double causes = static_cast<double>(set.members.size());
-  return 0.5 * set.gain / stretch - kPricePerDirection * set.degrees - kOddsAgainst * causes;
+  return 0.5 * set.gain / stretch - set.price - kOddsAgainst * causes;
 }
 
 double own_stretch(const QuadraticForm& form, const Candidate& c) {
@@ -45,6 +45,72 @@ double own_stretch(const QuadraticForm& form, const Candidate& c) {
 }
 
 bool same(const Candidate& a, const Candidate& b) { return a.name == b.name && a.rotor == b.rotor; }
+
+// The model with one more cause: its constants at their fitted values, the new ones at the step of the
+// quadratic form.
+FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const SearchResult& at_now,
+                       const std::vector<int>& have, int chosen, const FlightFitOptions& options) {
+  const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
+  std::vector<int> with = have;
+  with.push_back(chosen);
+  const SetGain set = gain_of(at_now.form, at_now.problem, with);
+  const std::vector<double> at = at_now.best.theta->p(at_now.best.fit.u);
+  std::vector<FreeConstant> constants = at_now.best.constants;
+  for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
+  for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
+    if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
+    for (const int i : cause.directions) {
+      const FreeConstant& d = at_now.problem.constants[static_cast<std::size_t>(i)];
+      const double moved = d.start + d.scale * set.step[i];
+      if (d.name == c.name) c.start = moved;
+      if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
+          d.name.substr(9) == c.name.substr(7)) {
+        const double mass =
+            std::max(at_now.problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
+                         std::abs(set.step[cause.directions[0]]),
+                     1e-3 * at[param::m]);
+        c.start = std::clamp(moved * at[param::m] / mass, -0.3, 0.3);
+      }
+    }
+    c.adopted = true;
+    constants.push_back(c);
+  }
+  std::vector<Candidate> adopted = at_now.best.adopted;
+  adopted.push_back(cause);
+  FlightFitOptions again = options;
+  again.noise = at_now.form.noise;
+  again.chunk_seconds = std::min(at_now.best.fit.chunk_seconds, chunk_for(record, at_now.form.noise));
+  again.estimate_noise = false;
+  return fitted(constants, adopted, record, at, again);
+}
+
+std::vector<int> places_of(const std::vector<Candidate>& adopted, const ExtendedProblem& problem) {
+  std::vector<int> places;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c)
+    if (std::ranges::any_of(adopted, [&](const Candidate& a) { return same(a, problem.candidates[c]); }))
+      places.push_back(static_cast<int>(c));
+  return places;
+}
+
+// What a further cause gains where everything stands linearised.
+struct Further {
+  int candidate = -1;
+  double gain = 0, price = 0, stretch = 1;
+  bool possible = false;
+
+  double honest() const { return gain / stretch; }
+  bool passes(double degrees) const { return possible && honest() > kLeastGain + kPerDirection * degrees; }
+};
+Further further(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& have,
+                int candidate, double& degrees) {
+  std::vector<int> with = have;
+  with.push_back(candidate);
+  const SetGain set = gain_of(form, problem, with), now = gain_of(form, problem, have);
+  degrees = set.degrees - now.degrees;
+  return {candidate, set.gain - now.gain, set.price - now.price,
+          own_stretch(form, problem.candidates[static_cast<std::size_t>(candidate)]),
+          set.physical && degrees >= 1};
+}
 
 }  // namespace
 
@@ -85,95 +151,77 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     });
   out.base = fitted(base, {}, record, p, fit);
   out.best = out.base;
+  const auto everything_at = [&](const FittedModel& model, ExtendedProblem& problem) {
+    problem = extended_problem(vehicle, model.theta->p(model.fit.u), record.signals, model.constants,
+                               options.exclude);
+    return linearise_everything(record, model.fit, *model.theta, problem);
+  };
+  std::vector<Candidate> tried;  // and found no better where they act
   for (int step = 0;; ++step) {
     tell(0.2 + 0.2 * step, "every cause");
-    out.problem = extended_problem(vehicle, out.best.theta->p(out.best.fit.u), record.signals,
-                                   out.best.constants, options.exclude);
-    out.form = linearise_everything(record, out.best.fit, *out.best.theta, out.problem);
+    out.form = everything_at(out.best, out.problem);
     if (step == 0) out.base_problem = out.problem, out.base_form = out.form;
     if (step >= options.most_causes) break;
-    std::vector<int> have;
-    for (std::size_t c = 0; c < out.problem.candidates.size(); ++c)
-      if (std::ranges::any_of(out.best.adopted,
-                              [&](const Candidate& a) { return same(a, out.problem.candidates[c]); }))
-        have.push_back(static_cast<int>(c));
-    const SetGain now = gain_of(out.form, out.problem, have);
-    struct Passed {
-      int candidate;
-      double gain, own, stretch;
-    };
-    std::vector<Passed> passed;
-    for (std::size_t c = 0; c < out.problem.candidates.size(); ++c) {
-      if (std::ranges::find(have, static_cast<int>(c)) != have.end()) continue;
-      std::vector<int> with = have;
-      with.push_back(static_cast<int>(c));
-      const SetGain set = gain_of(out.form, out.problem, with);
-      const double own = set.degrees - now.degrees,
-                   stretch = own_stretch(out.form, out.problem.candidates[c]);
-      const double gain = set.gain - now.gain;
-      if (set.physical && own >= 1 && gain / stretch > kLeastGain + kPerDirection * own)
-        passed.push_back({static_cast<int>(c), gain, own, stretch});
+    const std::vector<int> have = places_of(out.best.adopted, out.problem);
+    std::vector<Further> passed;
+    Further uneven;  // gains most, but a size that seems to change from block to block
+    for (int c = 0; c < static_cast<int>(out.problem.candidates.size()); ++c) {
+      if (std::ranges::find(have, c) != have.end()) continue;
+      double degrees = 0;
+      const Further f = further(out.form, out.problem, have, c, degrees);
+      if (f.passes(degrees)) passed.push_back(f);
+      const Candidate& cause = out.problem.candidates[static_cast<std::size_t>(c)];
+      if (f.possible && f.gain > uneven.gain &&
+          std::ranges::none_of(tried, [&](const Candidate& t) { return same(t, cause); }))
+        uneven = f;
     }
-    int best = -1;
-    double best_gain = 0;
+    Further best;
     if (!passed.empty()) {
-      const double common = std::ranges::max_element(passed, {}, &Passed::gain)->stretch;
-      const auto score = [&](const Passed& c) { return 0.5 * c.gain / common - kPricePerDirection * c.own; };
-      const Passed& top = *std::ranges::max_element(passed, {}, score);
-      best = top.candidate, best_gain = top.gain / top.stretch;
+      const double common = std::ranges::max_element(passed, {}, &Further::gain)->stretch;
+      best = *std::ranges::max_element(passed, {},
+                                       [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
     }
-    if (best < 0) break;
-    const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best)];
-    tell(0.3 + 0.2 * step, described(chosen));
-    std::vector<int> with = have;
-    with.push_back(best);
-    const SetGain set = gain_of(out.form, out.problem, with);
-    // Constants of the model so far at their fitted values, the new ones at the step of the quadratic form.
-    const std::vector<double> at = out.best.theta->p(out.best.fit.u);
-    std::vector<FreeConstant> constants = out.best.constants;
-    for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
-    for (FreeConstant c : constants_of(chosen, vehicle, at, record.signals.voltage)) {
-      if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
-      for (const int i : chosen.directions) {
-        const FreeConstant& d = out.problem.constants[static_cast<std::size_t>(i)];
-        const double moved = d.start + d.scale * set.step[i];
-        if (d.name == c.name) c.start = moved;
-        if (chosen.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
-            d.name.substr(9) == c.name.substr(7)) {
-          const double mass =
-              std::max(out.problem.constants[static_cast<std::size_t>(chosen.directions[0])].scale *
-                           std::abs(set.step[chosen.directions[0]]),
-                       1e-3 * at[param::m]);
-          c.start = std::clamp(moved * at[param::m] / mass, -0.3, 0.3);
+    // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
+    // where it acts.
+    if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried.size() < 2) {
+      const Candidate cause = out.problem.candidates[static_cast<std::size_t>(uneven.candidate)];
+      tell(0.25 + 0.2 * step, described(cause));
+      FittedModel trial = with_cause(record, vehicle, out, have, uneven.candidate, fit);
+      ExtendedProblem problem;
+      const QuadraticForm form = everything_at(trial, problem);
+      std::vector<int> others = places_of(trial.adopted, problem);
+      const auto own = std::ranges::find_if(
+          others, [&](int c) { return same(problem.candidates[static_cast<std::size_t>(c)], cause); });
+      if (own != others.end()) {
+        const int place = *own;
+        others.erase(own);
+        double degrees = 0;
+        const Further there = further(form, problem, others, place, degrees);
+        if (there.passes(degrees) && there.honest() > best.honest()) {
+          out.steps.push_back({described(cause), there.honest()});
+          out.best = std::move(trial);
+          continue;
         }
       }
-      c.adopted = true;
-      constants.push_back(c);
+      tried.push_back(cause);
     }
-    std::vector<Candidate> adopted = out.best.adopted;
-    adopted.push_back(chosen);
-    FlightFitOptions again = fit;
-    again.noise = out.form.noise;
-    again.chunk_seconds = std::min(out.best.fit.chunk_seconds, chunk_for(record, out.form.noise));
-    again.estimate_noise = false;
-    FittedModel next = fitted(constants, adopted, record, at, again);
-    out.steps.push_back({described(chosen), best_gain});
+    if (best.candidate < 0) break;
+    const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best.candidate)];
+    tell(0.3 + 0.2 * step, described(chosen));
+    FittedModel next = with_cause(record, vehicle, out, have, best.candidate, fit);
+    out.steps.push_back({described(chosen), best.honest()});
     out.best = std::move(next);
   }
   // Weigh sets of at most two causes (and the one found) at the model and noise found.
   const int n = static_cast<int>(out.problem.candidates.size());
   std::vector<std::vector<int>> sets{{}};
-  std::vector<int> found;
+  const std::vector<int> found = places_of(out.best.adopted, out.problem);
   std::vector<std::pair<double, int>> singles;
   double common = 1;
   for (const Candidate& c : out.problem.candidates)
     if (std::ranges::any_of(out.best.adopted, [&](const Candidate& a) { return same(a, c); }))
       common = std::max(common, own_stretch(out.form, c));
   for (int c = 0; c < n; ++c) {
-    if (std::ranges::any_of(out.best.adopted, [&](const Candidate& a) {
-          return same(a, out.problem.candidates[static_cast<std::size_t>(c)]);
-        }))
-      found.push_back(c);
     sets.push_back({c});
     singles.emplace_back(-evidence(gain_of(out.form, out.problem, {c}), common), c);
   }

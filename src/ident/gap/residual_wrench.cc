@@ -48,8 +48,6 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
   const double m = p[param::m],
                hover = std::sqrt(m * record.vehicle->g / (static_cast<double>(N) * p[param::kT]));
   const std::array<double, 3> J{p[param::Jxx], p[param::Jyy], p[param::Jzz]};
-  Eigen::Vector3d gusts_W;
-  for (int i = 0; i < 3; ++i) gusts_W[i] = std::pow(floor.v_dot[static_cast<std::size_t>(i)].sigma, 2);
   VectorXd speed(n), climb(n), tilt(n), rates(n), collective(n), height(n), voltage(n);
   for (Index k = 0; k < n; ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -62,6 +60,9 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
     out.log.push_back(arc.log);
     // What the smoother took for accelerations from outside, and what the accelerometer shows beyond it.
     const Eigen::Vector3d push_B = R.transpose() * x.outside.v_dot_W;
+    const AirNoise& air = floor.in_log(arc.log);
+    Eigen::Vector3d gusts_W;
+    for (int i = 0; i < 3; ++i) gusts_W[i] = std::pow(air.v_dot[static_cast<std::size_t>(i)].sigma, 2);
     const Eigen::Vector3d gusts_B = R.transpose().cwiseAbs2() * gusts_W;
     for (int c = 0; c < 3; ++c) {
       const auto cc = static_cast<std::size_t>(c);
@@ -74,7 +75,7 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
       const double white = count > 0 ? floor.sigma[kForce + cc] : 0.0;
       variance[c] += m * m * (gusts_B[c] + white * white / std::max(count, 1.0));
       out.residual(k, 3 + c) = J[cc] * x.outside.w_dot_B[c];
-      variance[3 + c] += J[cc] * J[cc] * floor.w_dot[cc].sigma * floor.w_dot[cc].sigma;
+      variance[3 + c] += J[cc] * J[cc] * air.w_dot[cc].sigma * air.w_dot[cc].sigma;
     }
     for (Index c = 0; rotors && c < N; ++c) {
       if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c];

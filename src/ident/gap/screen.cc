@@ -11,14 +11,22 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// The price of a direction is half the log of the odds between the sizes that it might have had, some times
+// its typical one, and those that the data leave; at most that of an effective sample.
+constexpr double kPricePerDirection = 2.5;
+constexpr double kPlausible = 9.0;  // square of the largest plausible size over the typical one
+
 struct Solved {
   double drop = 0.0;
   VectorXd step;
+  double price = 0.0;
 };
 
 // Minimum over the unknowns `free`, those in `fixed` (index, value) held there, the rest at zero.
+// The price is that of the last `priced` of `free`.
 Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
-               const std::vector<std::pair<int, double>>& fixed, const std::vector<int>& without_prior) {
+               const std::vector<std::pair<int, double>>& fixed, const std::vector<int>& without_prior,
+               Eigen::Index priced = 0) {
   const Eigen::Index n = f.g.size();
   VectorXd info = f.prior_info, g = f.g + f.prior_g;
   double waived = 0;  // what the priors that are dropped cost where the form stands
@@ -41,8 +49,13 @@ Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
   const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
   scaled.diagonal().array() += 1e-10;
-  const VectorXd x = -(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(s.asDiagonal() * r));
+  const Eigen::LLT<MatrixXd> solver(scaled);
+  const VectorXd x = -(s.asDiagonal() * solver.solve(s.asDiagonal() * r));
   Solved out;
+  for (Eigen::Index a = m - priced; a < m; ++a) {
+    const double variance = solver.solve(VectorXd::Unit(m, a))[a] * s[a] * s[a];
+    out.price += std::min(kPricePerDirection, 0.5 * std::log1p(kPlausible / variance));
+  }
   for (Eigen::Index a = 0; a < m; ++a) d[free[static_cast<std::size_t>(a)]] = x[a];
   out.step = d;
   out.drop = waived - (2 * g.dot(d) + d.dot(f.S * d) + info.cwiseProduct(d).dot(d));
@@ -165,6 +178,7 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
       out.degrees += 1;
     }
   }
+  const auto own = static_cast<Eigen::Index>(free.size() - base.size());
   // Adopted effects that are not members go back to their null values.
   std::vector<std::pair<int, double>> off, all_off;
   for (int i = 0; i < form.constants; ++i) {
@@ -172,16 +186,27 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     all_off.emplace_back(i, form.null[i]);
     if (!on[static_cast<std::size_t>(i)]) off.emplace_back(i, form.null[i]);
   }
-  const Solved with = minimum(form, free, off, dropped), without = minimum(form, base, all_off, {});
-  out.gain = with.drop - without.drop;
-  out.step = with.step;
+  const Solved without = minimum(form, base, all_off, {});
+  Solved with = minimum(form, free, off, dropped, own);
   for (const int c : members) {
     const Candidate& candidate = problem.candidates[static_cast<std::size_t>(c)];
-    if (candidate.positive && !candidate.directions.empty()) {
-      const int i = candidate.directions[0];
-      if (with.step[i] - form.null[i] < 0) out.physical = false;
+    if (!candidate.positive || candidate.directions.empty()) continue;
+    const int i = candidate.directions[0];
+    if (with.step[i] - form.null[i] >= 0) continue;
+    if (candidate.directions.size() == 1) {
+      out.physical = false;
+      continue;
     }
+    // A payload too light to be weighed: its mass stays at the bound, its place may still show.
+    off.emplace_back(i, form.null[i]);
+    std::erase(free, i);
+    const double price = with.price;
+    with = minimum(form, free, off, dropped, own - 1);
+    with.price = std::max(with.price, price - kPricePerDirection);
   }
+  out.gain = with.drop - without.drop;
+  out.step = with.step;
+  out.price = with.price + kPricePerDirection * static_cast<double>(dropped.size());
   return out;
 }
 

@@ -35,8 +35,9 @@ struct SetGain {
   std::vector<int> members;  ///< candidates
   double gain = 0.0;         ///< fall of the cost (twice the log likelihood)
   double degrees = 0.0;      ///< directions freed
-  bool physical = true;      ///< signs as they must be
-  Eigen::VectorXd step;      ///< of all unknowns at the optimum of the quadratic form
+  double price = 0.0;    ///< of the directions, in units of log likelihood: little where the data tell little
+  bool physical = true;  ///< signs as they must be
+  Eigen::VectorXd step;  ///< of all unknowns at the optimum of the quadratic form
 };
 SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& members);
 

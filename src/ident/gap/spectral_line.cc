@@ -43,8 +43,9 @@ double running_median(const std::vector<double>& power, std::size_t k) {
   return *middle;
 }
 
-// The strongest line of a series sampled every h seconds, if there is one.
-void look_for_line(const std::string& channel, const Pieces& pieces, double h,
+// The strongest line of a series sampled every h seconds, if there is one, up to the share `highest` of the
+// band.
+void look_for_line(const std::string& channel, const Pieces& pieces, double h, double highest,
                    std::vector<SpectralLine>& out) {
   std::size_t longest = 0;
   for (const auto& piece : pieces) longest = std::max(longest, piece.size());
@@ -58,7 +59,8 @@ void look_for_line(const std::string& channel, const Pieces& pieces, double h,
   double total = 0, best = 0, share = 0;
   std::size_t at = 0;
   for (std::size_t k = 1; k < power.size(); ++k) total += power[k];
-  for (std::size_t k = 4; k + 2 < power.size(); ++k) {
+  const auto last = static_cast<std::size_t>(highest * static_cast<double>(power.size()));
+  for (std::size_t k = 4; k + 2 < last; ++k) {
     const double around = running_median(power, k), height = power[k] / std::max(around, 1e-300);
     if (height <= best || power[k] < power[k - 1] || power[k] < power[k + 1]) continue;
     best = height, at = k;
@@ -88,7 +90,7 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
     for (const auto& piece : pieces) samples += static_cast<double>(piece.size());
-    if (samples > 512) look_for_line(channel_name(channel), pieces, seconds / samples, out);
+    if (samples > 512) look_for_line(channel_name(channel), pieces, seconds / samples, 1.0, out);
   }
   static constexpr std::array names = {"Mx", "My", "Mz", "Fx", "Fy", "Fz"};
   for (int axis = 0; axis < 6; ++axis) {
@@ -101,8 +103,9 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
                                                                          : air.v_dot_W[axis - 3]);
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
+    // The smoother leaves next to nothing at the upper end of the band: any ripple there looks like a line.
     look_for_line(names[static_cast<std::size_t>(axis)], pieces, seconds / static_cast<double>(places.size()),
-                  out);
+                  0.8, out);
   }
   std::ranges::sort(out, std::greater<>(), &SpectralLine::height);
   return out;
