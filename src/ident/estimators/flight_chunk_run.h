@@ -6,6 +6,15 @@
 
 namespace ident {
 
+/// Counts a weighted residual, clipped at `huber`.
+template <class Isa>
+void count_residual(ChunkResult& out, int channel, double r, double huber) {
+  const auto c = static_cast<std::size_t>(channel);
+  const double clipped = r > huber ? huber : r < -huber ? -huber : r;
+  out.square.data()[c] += clipped * clipped;
+  out.count.data()[c] += 1;
+}
+
 /// Simulates a chunk on scalar S and hands every predicted measurement to `sink(row, channel, residual)`.
 template <class Isa, class S>
 class ChunkRun {

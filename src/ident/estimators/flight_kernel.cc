@@ -3,6 +3,7 @@
 
 namespace ident {
 
+void evaluate_chunk_residuals(const ChunkTask& task, ChunkResult& result);
 void evaluate_chunk_baseline(const ChunkTask& task, ChunkResult& result);
 #if defined(__x86_64__)
 void evaluate_chunk_avx2(const ChunkTask& task, ChunkResult& result);
@@ -34,13 +35,13 @@ std::string_view best_isa() {
 }
 
 void evaluate_chunk(const ChunkTask& task, ChunkResult& result) {
-  static const Kernel kernel = kernel_named(best_isa());
-  kernel(task, result);
+  static const Kernel with_slopes = kernel_named(best_isa());
+  (task.jacobian ? with_slopes : evaluate_chunk_residuals)(task, result);
 }
 
 bool evaluate_chunk_with(std::string_view isa, const ChunkTask& task, ChunkResult& result) {
   const Kernel kernel = kernel_named(isa);
-  if (kernel) kernel(task, result);
+  if (kernel) (task.jacobian ? kernel : evaluate_chunk_residuals)(task, result);
   return kernel != nullptr;
 }
 

@@ -1,22 +1,22 @@
 // The kernel itself, templated on an instruction set tag; included by one .cc per instruction set.
+//
+// Whatever is compiled here for an instruction set must bear its tag: a function without one would be shared
+// with the rest of the program, which must run on any machine (a test looks at the symbols).
 #pragma once
 
 #include <cstring>
 
 #include "ident/estimators/flight_chunk_run.h"
+#include "ident/estimators/flight_kernel_columns.h"
+#include "ident/estimators/flight_kernel_products.h"
+#include "ident/estimators/flight_kernel_state.h"
 
 namespace ident {
 
 template <class Isa>
 class ChunkKernel {
  public:
-  static void evaluate(const ChunkTask& task, ChunkResult& out) {
-    if (task.jacobian) {
-      ChunkKernel(task, out).with_jacobian();
-    } else {
-      without_jacobian(task, out);
-    }
-  }
+  static void evaluate(const ChunkTask& task, ChunkResult& out) { ChunkKernel(task, out).with_jacobian(); }
 
  private:
   ChunkKernel(const ChunkTask& task, ChunkResult& out)
@@ -24,63 +24,15 @@ class ChunkKernel {
     list_columns();
   }
 
-  // A column of J: `external` is its place in the caller's order, state first, then shared unknowns.
-  // Internally those that need dual numbers come first; the others follow from the time since the chunk's
-  // start.
-  enum class Kind { dual, position, velocity, push, bias };
-  struct Column {
-    int external = -1, axis = 0;
-    Kind kind = Kind::dual;
-    double derivative = 1.0;
-  };
+  using Column = KernelColumn<Isa>;
+  using Kind = typename Column::Kind;
+  using Place = KernelPlace<Isa>;
 
   void list_columns() {
-    const StateLayout& layout = task_.layout;
-    // Without drag or effects off their null values nothing depends on velocity and position, and nothing
-    // stands between an acceleration and the accelerometer.
-    const bool plain = task_.active == 0 && task_.p.data()[param::Kdx] == 0 &&
-                       task_.p.data()[param::Kdy] == 0 && task_.p.data()[param::Kdz] == 0 &&
-                       !seeded_with(param::Kdx) && !seeded_with(param::Kdy) && !seeded_with(param::Kdz);
-    const auto within = [](int i, int first) { return first >= 0 && i >= first && i < first + 3; };
-    const auto kind_of = [&](int i) {
-      if (plain && within(i, layout.x)) return Kind::position;
-      if (plain && within(i, layout.v)) return Kind::velocity;
-      if (plain && within(i, layout.v_dot)) return Kind::push;
-      return Kind::dual;
-    };
     place_ = table<Place>(static_cast<std::size_t>(d_));
     column_ = table<Column>(static_cast<std::size_t>(d_) + 64);
-    for (int i = 0; i < d_; ++i) place_[i] = {-1};
-    columns_ = 0;
-    const auto add = [&](const Column& column) {
-      place_[column.external].at = columns_;
-      column_[columns_++] = column;
-    };
-    for (int i = 0; i < layout.size; ++i)
-      if (kind_of(i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
-    for (const Seed& seed : task_.seeds)
-      if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
-    // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
-    // precision.
-    dual_packs_ = task_.exact ? 4 * ((columns_ + 31) / 32) : 2 * ((columns_ + 15) / 16);
-    while (columns_ < 8 * dual_packs_) column_[columns_++] = {-1, 0, Kind::dual, 0.0};
-    for (int i = 0; i < layout.size; ++i) {
-      const int first = kind_of(i) == Kind::position   ? layout.x
-                        : kind_of(i) == Kind::velocity ? layout.v
-                                                       : layout.v_dot;
-      if (kind_of(i) != Kind::dual) add({i, i - first, kind_of(i), 1.0});
-    }
-    for (const Seed& seed : task_.seeds)
-      if (seed.slot >= kParameterCount)
-        add({layout.size + seed.direction, seed.slot - kParameterCount, Kind::bias, seed.derivative});
-    packs_ = (columns_ + 7) / 8;
-    while (columns_ < 8 * packs_) column_[columns_++] = {-1, 0, Kind::dual, 0.0};
-  }
-
-  bool seeded_with(int slot) const {
-    for (const Seed& seed : task_.seeds)
-      if (seed.slot == slot) return true;
-    return false;
+    const KernelColumns<Isa> list(task_, place_, column_);
+    columns_ = list.columns, dual_packs_ = list.dual_packs, packs_ = list.packs;
   }
 
   // Packs of types of their own for each instruction set, and aligned on the heap.
@@ -93,31 +45,6 @@ class ChunkKernel {
   struct alignas(64) AlignedSum {
     Pack8 pack;
   };
-
-  static void count(ChunkResult& out, int channel, double r, double huber, double leverage) {
-    const auto c = static_cast<std::size_t>(channel);
-    const double clipped = r > huber ? huber : r < -huber ? -huber : r;
-    out.square[c] += clipped * clipped;
-    out.leverage[c] += leverage;
-    out.count[c] += 1;
-  }
-
-  static void without_jacobian(const ChunkTask& task, ChunkResult& out) {
-    out.cost = 0;
-    out.square = out.leverage = out.count = {};
-    const std::size_t size = (task.end - task.begin) * kChannels;
-    if (out.residuals.size() != size) out.residuals.resize(size);
-    for (std::size_t i = 0; i < size; ++i) out.residuals.data()[i] = __builtin_nan("");
-    ChunkRun<Isa, double> run(task, task.p, task.active, task.gyro_bias.data());
-    out.x_end = run(task.x0, [&](std::size_t row, int channel, double r) {
-      r *= task.weight[channel];
-      const double a = r < 0 ? -r : r;
-      out.cost += a <= task.huber ? r * r : task.huber * (2 * a - task.huber);
-      count(out, channel, r, task.huber, 0.0);
-      if (row >= task.begin && row < task.end)
-        out.residuals.data()[(row - task.begin) * kChannels + static_cast<std::size_t>(channel)] = r;
-    });
-  }
 
   void with_jacobian() {
     const std::size_t most = (task_.end - task_.begin + 64) * kChannels;
@@ -172,31 +99,33 @@ class ChunkKernel {
                          bias);
     std::size_t sample = 0;
     Pack8 gradient[packs] = {};
-    const FlightState<S> end = run(seeded<S>(from, to), [&](std::size_t i, int channel, const S& residual) {
-      const double weight = task_.weight[channel], r = residual.v * weight, a = r < 0 ? -r : r;
-      // Huber: beyond the bend the row is scaled so that J'J and J'r are those of rho.
-      const double bend = a <= task_.huber ? 1.0 : __builtin_sqrt(task_.huber / a);
-      Pack8* row = J_ + sample * static_cast<std::size_t>(packs_) + pack;
-      const double scale = weight * bend;
-      for (int k = 0; k < packs; ++k) row[k] = doubles(residual, k) * scale;
-      if (first) {
-        out_.cost += a <= task_.huber ? r * r : task_.huber * (2 * a - task_.huber);
-        count(out_, channel, r, task_.huber, 0.0);
-      }
-      for (int k = 0; k < packs; ++k) gradient[k] += row[k] * (r * bend);
-      if (first) {
-        sample_[sample] = {scale, r * bend, channel};
-        analytic(J_ + sample * static_cast<std::size_t>(packs_), channel, task_.t[i] - task_.t[task_.begin],
-                 run.attitude(), scale);
-      }
-      ++sample;
-    });
+    const KernelState<Isa> state(task_, place_, column_);
+    const FlightState<S> end =
+        run(state.template seeded<S>(from, to), [&](std::size_t i, int channel, const S& residual) {
+          const double weight = task_.weight[channel], r = residual.v * weight, a = r < 0 ? -r : r;
+          // Huber: beyond the bend the row is scaled so that J'J and J'r are those of rho.
+          const double bend = a <= task_.huber ? 1.0 : __builtin_sqrt(task_.huber / a);
+          Pack8* row = J_ + sample * static_cast<std::size_t>(packs_) + pack;
+          const double scale = weight * bend;
+          for (int k = 0; k < packs; ++k) row[k] = doubles(residual, k) * scale;
+          if (first) {
+            out_.cost += a <= task_.huber ? r * r : task_.huber * (2 * a - task_.huber);
+            count_residual<Isa>(out_, channel, r, task_.huber);
+          }
+          for (int k = 0; k < packs; ++k) gradient[k] += row[k] * (r * bend);
+          if (first) {
+            sample_[sample] = {scale, r * bend, channel};
+            analytic(J_ + sample * static_cast<std::size_t>(packs_), channel,
+                     task_.t[i] - task_.t[task_.begin], run.attitude(), scale);
+          }
+          ++sample;
+        });
     samples_ = sample;
     for (int i = from; i < to; ++i)
       if (column_[i].external >= 0)
         out_.g.data()[column_[i].external] = gradient[(i - from) / 8][(i - from) % 8];
-    store_end(end, from);
-    if (first) out_.x_end = values(end);
+    state.store_end(end, from, out_.E.data());
+    if (first) out_.x_end = state.values(end);
   }
 
   // Eight derivatives in double precision.
@@ -214,95 +143,10 @@ class ChunkKernel {
     }
   }
 
-  template <class S>
-  FlightState<S> seeded(int from, int to) const {
-    const FlightState<double>& x = task_.x0;
-    const StateLayout& layout = task_.layout;
-    FlightState<S> s;
-    const auto seed = [&](S& scalar, int external, double derivative) {
-      const int at = place_[external].at;
-      if (at >= from && at < to) scalar.seed(at - from, derivative);
-    };
-    for (int k = 0; k < 4; ++k) s.body.q_WB[k] = S(x.body.q_WB[k]);
-    for (int k = 0; k < 3; ++k) {
-      s.body.w_B[k] = S(x.body.w_B[k]), s.body.v_W[k] = S(x.body.v_W[k]), s.body.x_W[k] = S(x.body.x_W[k]);
-      seed(s.body.w_B[k], layout.w + k, 1.0);
-      if (layout.v >= 0) seed(s.body.v_W[k], layout.v + k, 1.0);
-      if (layout.x >= 0) seed(s.body.x_W[k], layout.x + k, 1.0);
-      s.outside.w_dot_B[k] = S(x.outside.w_dot_B[k]), s.outside.v_dot_W[k] = S(x.outside.v_dot_W[k]);
-      if (layout.w_dot >= 0) seed(s.outside.w_dot_B[k], layout.w_dot + k, 1.0);
-      if (layout.v_dot >= 0) seed(s.outside.v_dot_W[k], layout.v_dot + k, 1.0);
-      if (layout.attitude < 0) continue;
-      Vec4<double> half(0, 0, 0, 0);
-      half[1 + k] = 0.5;
-      const Vec4<double> dq = quaternion_product(x.body.q_WB, half);
-      for (int i = 0; i < 4; ++i) seed(s.body.q_WB[i], layout.attitude + k, dq[i]);
-    }
-    for (int i = 0; i < layout.rotors; ++i) {
-      const auto m = static_cast<std::size_t>(i);
-      s.motors[m] = {S(x.motors[m].Omega), S(x.motors[m].Omega_dot)};
-      if (layout.motors < 0) continue;
-      seed(s.motors[m].Omega, layout.motors + i, 1.0);
-      seed(s.motors[m].Omega_dot, layout.motors + layout.rotors + i, 1.0);
-    }
-    return s;
-  }
-
-  template <class S>
-  void put_end(int row, const S& scalar, int from) {
-    double* E = out_.E.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(d_);
-    for (int i = 0; i < S::width; ++i)
-      if (column_[from + i].external >= 0) E[column_[from + i].external] = scalar.derivative(i);
-  }
-
-  template <class S>
-  void store_end(const FlightState<S>& end, int from) {
-    const StateLayout& layout = task_.layout;
-    const Vec4<double> q(end.body.q_WB[0].v, end.body.q_WB[1].v, end.body.q_WB[2].v, end.body.q_WB[3].v);
-    const Vec4<S> turn = quaternion_product(conjugate(q), end.body.q_WB);
-    for (int k = 0; k < 3; ++k) {
-      put_end(layout.w + k, end.body.w_B[k], from);
-      if (layout.attitude >= 0) put_end(layout.attitude + k, S(2.0 * turn[1 + k]), from);
-      if (layout.v >= 0) put_end(layout.v + k, end.body.v_W[k], from);
-      if (layout.x >= 0) put_end(layout.x + k, end.body.x_W[k], from);
-      if (layout.w_dot >= 0) put_end(layout.w_dot + k, end.outside.w_dot_B[k], from);
-      if (layout.v_dot >= 0) put_end(layout.v_dot + k, end.outside.v_dot_W[k], from);
-    }
-    if (layout.motors < 0) return;
-    for (int i = 0; i < layout.rotors; ++i) {
-      put_end(layout.motors + i, end.motors[static_cast<std::size_t>(i)].Omega, from);
-      put_end(layout.motors + layout.rotors + i, end.motors[static_cast<std::size_t>(i)].Omega_dot, from);
-    }
-  }
-
-  template <class S>
-  FlightState<double> values(const FlightState<S>& s) const {
-    FlightState<double> x = task_.x0;
-    for (int k = 0; k < 4; ++k) x.body.q_WB[k] = s.body.q_WB[k].v;
-    for (int k = 0; k < 3; ++k) {
-      x.body.w_B[k] = s.body.w_B[k].v, x.body.v_W[k] = s.body.v_W[k].v, x.body.x_W[k] = s.body.x_W[k].v;
-      x.outside.w_dot_B[k] = s.outside.w_dot_B[k].v, x.outside.v_dot_W[k] = s.outside.v_dot_W[k].v;
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(task_.layout.rotors); ++i)
-      x.motors[i] = {s.motors[i].Omega.v, s.motors[i].Omega_dot.v};
-    return x;
-  }
-
-  // A = J'J by blocks of 8 x 8, over tiles of samples that stay in the nearest memory.
+  // A = J'J.
   void square() {
-    constexpr std::size_t tile = 32;
-    const int blocks = packs_ * (packs_ + 1) / 2;
-    Pack8* sums = &table<AlignedSum>(static_cast<std::size_t>(8 * blocks))->pack;
-    for (int i = 0; i < 8 * blocks; ++i) sums[i] = Pack8{};
-    for (std::size_t from = 0; from < samples_; from += tile) {
-      const std::size_t to = from + tile < samples_ ? from + tile : samples_;
-      Pack8* sum = sums;
-      for (int bi = 0; bi < packs_; ++bi) {
-        int bk = 0;
-        for (; bk + 1 <= bi; bk += 2, sum += 16) add_products<2>(from, to, bi, bk, sum);
-        if (bk == bi) add_products<1>(from, to, bi, bk, sum), sum += 8;
-      }
-    }
+    Pack8* sums = &table<AlignedSum>(static_cast<std::size_t>(8 * PackProducts<Isa>::blocks(packs_)))->pack;
+    PackProducts<Isa>(J_, samples_, packs_).square(sums);
     const Pack8* sum = sums;
     for (int bi = 0; bi < packs_; ++bi)
       for (int bk = 0; bk <= bi; ++bk, sum += 8)
@@ -313,23 +157,6 @@ class ChunkKernel {
             out_.A.data()[r * d_ + c] = sum[i][k];
             out_.A.data()[c * d_ + r] = sum[i][k];
           }
-  }
-
-  // Products of pack bi with the N packs from bk on, summed over samples.
-  template <int N>
-  void add_products(std::size_t from, std::size_t to, int bi, int bk, Pack8* sum) const {
-    const auto stride = static_cast<std::size_t>(packs_);
-    Pack8 s[8 * N];
-    for (int i = 0; i < 8 * N; ++i) s[i] = sum[i];
-    for (std::size_t n = from; n < to; ++n) {
-      const Pack8* row = J_ + n * stride;
-      const double* left = reinterpret_cast<const double*>(row + bi);
-      for (int m = 0; m < N; ++m) {
-        const Pack8 right = row[bk + m];
-        for (int i = 0; i < 8; ++i) s[8 * m + i] += left[i] * right;
-      }
-    }
-    for (int i = 0; i < 8 * N; ++i) sum[i] = s[i];
   }
 
   // Leverage of each sample with respect to the local state: j P j'.
@@ -419,9 +246,6 @@ class ChunkKernel {
     }
   }
 
-  struct Place {
-    int at = -1;
-  };
   struct Sample {
     double scale = 0, residual = 0;
     int channel = 0;

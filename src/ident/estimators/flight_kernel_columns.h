@@ -1,0 +1,83 @@
+// The columns of J of one chunk: which of them need dual numbers, and which follow from the time since its
+// start.
+#pragma once
+
+#include "ident/estimators/flight_kernel.h"
+
+namespace ident {
+
+/// A column: `external` is its place in the caller's order, state first, then shared unknowns; -1 fills a
+/// pack.
+template <class Isa>
+struct KernelColumn {
+  enum class Kind { dual, position, velocity, push, bias };
+  int external = -1, axis = 0;
+  Kind kind = Kind::dual;
+  double derivative = 1.0;
+};
+
+/// Where a column of the caller's order stands.
+template <class Isa>
+struct KernelPlace {
+  int at = -1;
+};
+
+/// Lists the columns in packs of eight: those with dual numbers first. Every state gets one; the caller's
+/// arrays hold 64 more than there are unknowns.
+template <class Isa>
+struct KernelColumns {
+  using Column = KernelColumn<Isa>;
+  using Kind = typename Column::Kind;
+
+  int columns = 0, dual_packs = 0, packs = 0;
+
+  KernelColumns(const ChunkTask& task, KernelPlace<Isa>* place, Column* column) {
+    const StateLayout& layout = task.layout;
+    for (int i = 0; i < layout.size + task.thetas; ++i) place[i] = {-1};
+    const auto add = [&](const Column& c) {
+      place[c.external].at = columns;
+      column[columns++] = c;
+    };
+    const bool plain = is_plain(task);
+    for (int i = 0; i < layout.size; ++i)
+      if (kind_of(layout, plain, i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
+    for (const Seed& seed : task.seeds)
+      if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
+    // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
+    // precision.
+    dual_packs = task.exact ? 4 * ((columns + 31) / 32) : 2 * ((columns + 15) / 16);
+    while (columns < 8 * dual_packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
+    for (int i = 0; i < layout.size; ++i) {
+      const Kind kind = kind_of(layout, plain, i);
+      const int first = kind == Kind::position ? layout.x : kind == Kind::velocity ? layout.v : layout.v_dot;
+      if (kind != Kind::dual) add({i, i - first, kind, 1.0});
+    }
+    for (const Seed& seed : task.seeds)
+      if (seed.slot >= kParameterCount)
+        add({layout.size + seed.direction, seed.slot - kParameterCount, Kind::bias, seed.derivative});
+    packs = (columns + 7) / 8;
+    while (columns < 8 * packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
+  }
+
+ private:
+  // Without drag or effects off their null values nothing depends on velocity and position, and nothing
+  // stands between an acceleration and the accelerometer.
+  static bool is_plain(const ChunkTask& task) {
+    for (const int drag : {int{param::Kdx}, int{param::Kdy}, int{param::Kdz}}) {
+      if (task.p.data()[drag] != 0) return false;
+      for (const Seed& seed : task.seeds)
+        if (seed.slot == drag) return false;
+    }
+    return task.active == 0;
+  }
+
+  static Kind kind_of(const StateLayout& layout, bool plain, int i) {
+    const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
+    if (plain && within(layout.x)) return Kind::position;
+    if (plain && within(layout.v)) return Kind::velocity;
+    if (plain && within(layout.v_dot)) return Kind::push;
+    return Kind::dual;
+  }
+};
+
+}  // namespace ident
