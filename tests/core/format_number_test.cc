@@ -30,6 +30,13 @@ TEST(FormatNumber, KeepsTwoDigitsWhenRoundingCarries) {
   EXPECT_EQ(format_with_uncertainty(9.9999e-6, 1.0e-8), "(1.0000 ± 0.0010)e-5");
 }
 
+TEST(FormatNumber, SaysNoMoreThanNineDigitsOfDataWithoutNoise) {
+  EXPECT_EQ(format_rounded(0.0029499997579994164, 1.6e-16), "0.0029499997580");
+  EXPECT_EQ(format_with_uncertainty(2.0, 1e-17), "2.0000000000 ± 0.0000000020");
+  EXPECT_EQ(format_with_uncertainty(0.0, 3.5e-101), "0");
+  EXPECT_EQ(format_number(3e-101), "0");
+}
+
 TEST(FormatNumber, ShowsAValueFarBelowItsDeviationAsZero) {
   EXPECT_EQ(format_with_uncertainty(-3e-9, 2e-6), "(0.0 ± 2.0)e-6");
   EXPECT_EQ(format_with_uncertainty(0, 0.5), "0.00 ± 0.50");

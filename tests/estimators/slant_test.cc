@@ -91,6 +91,16 @@ TEST(Slant, StandardDeviationIsThatOfSampledConstants) {
 }
 
 // Yaw leak 4 kQ/kT - 2 l tan(a + e), authority 2 l tan(a + e): the ratio is 1 - tan(a)/tan(a + e).
+TEST(Slant, UprightRotorsThatTurnAlikeHaveNoYawInputAndNoInfiniteNumber) {
+  Vehicle vehicle = slanted_vehicle(6e-6, 5.15e-8, 0.17);
+  vehicle.parameters["alpha"] = {0.0, {}};
+  const Result result = estimate_slant(vehicle);
+  ASSERT_TRUE(result.has_warning("slant_not_optimal"));
+  for (const Warning& warning : result.warnings)
+    EXPECT_EQ(warning.message.find("inf"), std::string::npos) << warning.message;
+  EXPECT_EQ(result.extra["alpha_numerical"]["unwanted_moment"], 0.0);
+}
+
 TEST(Slant, ADegreeOfMountingErrorCostsYawAsDerived) {
   const Vehicle v = slanted_vehicle(6e-6, 5.15e-8, 0.17);
   const double a = optimal_slant(6e-6, 5.15e-8, 0.17), e = M_PI / 180;

@@ -14,6 +14,7 @@ std::string campaign_page() {
 }
 
 TEST_F(ReportInBrowser, OpensWithoutErrorsAndDrawsEveryTimeSeries) {
+  if (!has_interactive_plots()) GTEST_SKIP() << "uPlot is not there (npm ci in src/ident/report)";
   open(campaign_page());
   see_everything();
   EXPECT_TRUE(browser_->errors().empty()) << browser_->errors().front();
@@ -24,6 +25,7 @@ TEST_F(ReportInBrowser, OpensWithoutErrorsAndDrawsEveryTimeSeries) {
 }
 
 TEST_F(ReportInBrowser, ZoomsAllPlotsOfASectionTogetherAndBack) {
+  if (!has_interactive_plots()) GTEST_SKIP() << "uPlot is not there (npm ci in src/ident/report)";
   open(render_html(sample_parameter_result()));
   see_everything();
   const auto visible_resets = [&] {
@@ -56,6 +58,7 @@ TEST_F(ReportInBrowser, ZoomsAllPlotsOfASectionTogetherAndBack) {
 }
 
 TEST_F(ReportInBrowser, DrawsSixHundredThousandPointsWithinASecond) {
+  if (!has_interactive_plots()) GTEST_SKIP() << "uPlot is not there (npm ci in src/ident/report)";
   open(render_html(large_result()));
   see_everything();
   EXPECT_EQ(value("document.querySelectorAll('.chart.live').length"), 1);

@@ -35,6 +35,18 @@ TEST(TextTable, IsAListWhereNumbersAloneAreTooWide) {
                                       "kT    (6.2049 ± 0.0087)e-6", "kQ    (8.798 ± 0.012)e-8"}));
 }
 
+TEST(TextTable, BreaksNamesOfFilesThatNoLineHolds) {
+  const std::string file = "a_long_name_of_a_folder/and_a_file_in_it_that_was_recorded_on_2026-11-21.csv";
+  const Table table{.columns = {"file", "kT"}, .rows = {{file, "(6.1049 ± 0.0087)e-6"}}};
+  for (const int width : {80, 60, 40, 20}) {
+    const std::string text = text_table(table, width);
+    for (const std::string& line : lines_of(text))
+      EXPECT_LE(display_width(line), std::max(width, 26)) << line;
+    EXPECT_NE(text.find("a_long_name_"), std::string::npos) << text;
+    EXPECT_NE(text.find(".csv"), std::string::npos) << text;
+  }
+}
+
 TEST(TextTable, LeavesAloneWhatFits) {
   const Table table{.columns = {"x", "y"}, .rows = {{"1.5", "a b"}, {"10.25", "c"}}};
   EXPECT_EQ(text_table(table, 80), "x      y\n 1.5   a b\n10.25  c\n");

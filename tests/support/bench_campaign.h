@@ -76,8 +76,8 @@ struct StepTest {
 
 /// Steps up and down between 20 % and 80 % of the command, each long enough to settle.
 GeneratedTable motor_steps(const BenchVehicle& vehicle, Random& random, const StepTest& test);
-/// A sweep with tare offsets: rows at rest, then five rows at each set-point, with a noisy speed sensor and the
-/// offset of a tenth of full speed in the command curve.
+/// A sweep with tare offsets: rows at rest, then five rows at each set-point, with a noisy speed sensor and
+/// the offset of a tenth of full speed in the command curve.
 GeneratedTable thrust_sweep(const BenchVehicle& vehicle, double kT, double kQ, Random& random,
                             const Disturbance& disturbance);
 

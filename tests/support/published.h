@@ -5,8 +5,8 @@
 //   [Selby]         plus, NED: front, right, back, left; rotors 1 and 3 clockwise by his own statement
 //   [Lozano]        plus, z up: front, right, back, left
 //
-// Written out by hand from what src/ident/model/README.md cites of the sources, which are not at hand; where a
-// source is in error both the printed and the corrected form stand here, by name.
+// Written out by hand from what src/ident/model/README.md cites of the sources, which are not at hand; where
+// a source is in error both the printed and the corrected form stand here, by name.
 #pragma once
 
 #include <array>

@@ -26,6 +26,11 @@ void ReportInBrowser::SetUp() {
   browser_ = std::make_unique<Browser>();
 }
 
+bool ReportInBrowser::has_interactive_plots() {
+  return fs::exists(fs::path(IDENT_SOURCE_DIR) /
+                    "src/ident/report/node_modules/uplot/dist/uPlot.iife.min.js");
+}
+
 void ReportInBrowser::TearDown() { fs::remove_all(folder_); }
 
 void ReportInBrowser::open(const std::string& html) {

@@ -26,6 +26,8 @@ class ReportInBrowser : public ::testing::Test {
   /// What stands on the paper when the page is printed.
   std::string printed_text();
   static bool can_read_pdf();
+  /// Without npm at set-up reports have static plots only.
+  static bool has_interactive_plots();
 
   /// A script of tests/report.
   static std::string script(const std::string& name);

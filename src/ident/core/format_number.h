@@ -7,7 +7,8 @@
 namespace ident {
 
 /// `value +- std`, both to the second significant digit of `std`: "12.30 ± 0.45", "(6.014 ± 0.012)e-6".
-/// Below 1e-3 and from 1e5 on the power of ten is taken out. Without a usable `std` the value alone.
+/// A deviation below 1e-9 of the value is shown as that. Below 1e-3 and from 1e5 on the power of ten is taken
+/// out. Without a usable `std` the value alone.
 std::string format_with_uncertainty(double value, double std);
 
 /// The value of `format_with_uncertainty` alone: "12.30", "6.014e-6".

@@ -12,6 +12,7 @@
 namespace ident {
 namespace {
 
+constexpr double kWorthSaying = 0.005;  // smaller differences of omega_m up and down matter to nobody
 constexpr double kDifferenceAt = 1e-3;  // probability below which spin-up and spin-down count as different
 
 Parameter& parameter(Result& result, const std::string& name) {
@@ -71,7 +72,7 @@ void compare_directions(Result& result, const std::vector<StepRecord>& records, 
                           {"probability_alike", p},
                           {"time_constant_up", time_constant(up)},
                           {"time_constant_down", {{"value", down}, {"unit", "s"}}}};
-  if (!(p < kDifferenceAt)) return;
+  if (!(p < kDifferenceAt) || std::fabs(std::log(ratio.value)) < kWorthSaying) return;
   result.warn(
       "spin_asymmetry",
       fmt::format(

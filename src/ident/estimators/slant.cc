@@ -81,13 +81,15 @@ void add_mounted(Result& result, const Vehicle& vehicle, double arm, double best
   const double mounted = mounted_angle(vehicle);
   if (!std::isfinite(mounted)) return;
   const SlantPrice price = slant_price(vehicle, arm, mounted);
-  const double trim = -price.yaw_leak / price.yaw_authority;
+  const double trim = -price.yaw_leak / price.yaw_authority;  // infinite for upright rotors: null in JSON
   result.extra["mounted"] = {{"alpha", mounted}, {"alpha_deg", mounted / kDegree}, {"yaw_trim", trim}};
-  if (std::fabs(mounted - best) > 0.2 * kDegree)
-    result.warn("slant_not_optimal",
-                fmt::format("mounted at {:.2f} deg, best is {:.2f} deg: hover needs {:.1f} % of the hover "
-                            "thrust as yaw input",
-                            mounted / kDegree, best / kDegree, 100.0 * std::fabs(trim)));
+  if (std::fabs(mounted - best) <= 0.2 * kDegree) return;
+  const std::string needs =
+      std::fabs(trim) < 1.0
+          ? fmt::format("hover needs {:.1f} % of the hover thrust as yaw input", 100.0 * std::fabs(trim))
+          : "no yaw input holds its heading at hover";
+  result.warn("slant_not_optimal", fmt::format("mounted at {:.2f} deg, best is {:.2f} deg: {}",
+                                               mounted / kDegree, best / kDegree, needs));
 }
 
 Section section(const Vehicle& vehicle, double arm, double alpha, double best) {
@@ -99,7 +101,7 @@ Section section(const Vehicle& vehicle, double arm, double alpha, double best) {
       {"yaw moment of the yaw input over l t", format_number(price.yaw_authority)},
       {"sideways force of the roll input over t", format_number(price.sideways)},
       {"yaw input that 1 deg of mounting error costs, of hover thrust",
-       fmt::format("{:.1f} %", 100.0 * trim)},
+       std::isfinite(trim) ? fmt::format("{:.1f} %", 100.0 * trim) : "–"},
       {"best angle for the vehicle as it is [deg]", format_number(best / kDegree, 6)},
       {"moments left coupled there, over l t", format_number(unwanted_moment(vehicle, arm, best))},
       {"moments left coupled at alpha_opt, over l t", format_number(unwanted_moment(vehicle, arm, alpha))}};

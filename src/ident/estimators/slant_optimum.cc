@@ -36,7 +36,9 @@ double best_slant(const Vehicle& vehicle, double arm) {
 }
 
 double unwanted_moment(const Vehicle& vehicle, double arm, double alpha) {
-  return unwanted_moments(vehicle, arm, alpha).norm();
+  constexpr double rounding = 1e-12;  // of moments that are of size 1
+  const double size = unwanted_moments(vehicle, arm, alpha).norm();
+  return size < rounding ? 0.0 : size;
 }
 
 }  // namespace ident

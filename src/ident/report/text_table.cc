@@ -9,6 +9,7 @@ namespace ident {
 namespace {
 
 constexpr int kGap = 2;                     // blanks between columns
+constexpr int kLongestWord = 28;            // a longer one (the name of a file) may be broken
 constexpr std::size_t kLongestNumber = 32;  // bytes; what is longer and starts with a digit is a sentence
 
 /// Where the decimal point stands, or where it would.
@@ -17,9 +18,27 @@ std::size_t point_of(std::string_view cell) {
   return end == std::string_view::npos ? cell.size() : end;
 }
 
+/// The text with blanks in words that no line holds, behind a separator of file names where there is one.
+std::string breakable(std::string text, int width) {
+  const auto room = static_cast<std::size_t>(std::max(width, 1));
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    if (display_width(std::string_view(text).substr(at, end - at)) <= width) {
+      at = end + 1;
+      continue;
+    }
+    const std::size_t separator = std::string_view(text).substr(at, room).find_last_of("/_-.");
+    std::size_t cut = at + (separator == std::string_view::npos || separator == 0 ? room : separator + 1);
+    while (cut > at + 1 && (text[cut] & 0xC0) == 0x80) --cut;  // not within a character
+    text.insert(cut, 1, ' ');
+    at = cut + 1;
+  }
+  return text;
+}
+
 /// A text whose first line has `indent` columns before it already.
 std::string wrap_after(const std::string& text, int width, int indent) {
-  return wrap(text, width, indent).substr(static_cast<std::size_t>(indent));
+  return wrap(breakable(text, width - indent), width, indent).substr(static_cast<std::size_t>(indent));
 }
 
 std::string padded(const std::string& cell, int width) {
@@ -49,7 +68,8 @@ int least_width(const std::vector<std::string>& cells) {
         r > 0 && is_number(without_leading_blanks(cells[r])) && cells[r].size() <= kLongestNumber;
     for (std::size_t at = 0; at < cells[r].size();) {
       const std::size_t end = whole ? cells[r].size() : std::min(cells[r].find(' ', at), cells[r].size());
-      width = std::max(width, display_width(std::string_view(cells[r]).substr(at, end - at)));
+      const int word = display_width(std::string_view(cells[r]).substr(at, end - at));
+      width = std::max(width, whole ? word : std::min(word, kLongestWord));
       at = end + 1;
     }
   }
@@ -78,7 +98,7 @@ bool fit(const std::vector<std::vector<std::string>>& columns, std::vector<int>&
 std::vector<std::string> lines_of_cell(const std::string& cell, int width) {
   if (display_width(cell) <= width) return {cell};
   std::vector<std::string> lines;
-  std::istringstream wrapped(wrap(cell, width));
+  std::istringstream wrapped(wrap(breakable(cell, width), width));
   for (std::string line; std::getline(wrapped, line);) lines.push_back(line);
   return lines;
 }
