@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "ident/model/parameters.h"
 
 namespace ident::app {
@@ -22,10 +24,26 @@ CsvDigits digits(const SimulateOptions& options) {
   return options.digits == "full" ? CsvDigits::full : CsvDigits::plain;
 }
 
-const std::map<std::string, CommandColumn>& command_columns() {
+void add_outliers(CLI::App& cli, double& share, const char* what) {
+  cli.add_option("--outliers", share, what)->check(CLI::Range(0.0, 0.5))->capture_default_str();
+}
+
+void add_rotor(CLI::App& cli, int& rotor) {
+  cli.add_option("--rotor", rotor, "its number")->check(CLI::Range(1, 8))->capture_default_str();
+}
+
+void add_recording_options(CLI::App& cli, BenchDisturbance& disturbance, CommandColumn& command,
+                           const char* columns) {
   static const std::map<std::string, CommandColumn> words = {
       {"delta", CommandColumn::delta}, {"u", CommandColumn::pulse}, {"none", CommandColumn::none}};
-  return words;
+  add_outliers(cli, disturbance.outliers, "share of readings that are far off");
+  cli.add_option("--autocorrelation", disturbance.autocorrelation, "of the noise from row to row")
+      ->check(CLI::Range(-0.99, 0.99))
+      ->capture_default_str();
+  cli.add_option("--command", command, columns)
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("WORD")
+      ->default_str("delta");
 }
 
 std::vector<std::string> provenance(const std::string& what, const std::string& vehicle, std::uint64_t seed) {

@@ -1,8 +1,6 @@
 // The kinds of data that `ident simulate` makes, one subcommand each.
 #pragma once
 
-#include <map>
-
 #include "command.h"
 #include "ident/data/table.h"
 #include "ident/io/write_csv.h"
@@ -25,8 +23,17 @@ struct SimulateOptions {
 void add_simulate_options(CLI::App& cli, SimulateOptions& options);
 CsvDigits digits(const SimulateOptions& options);
 
-/// Words for `--command`.
-const std::map<std::string, CommandColumn>& command_columns();
+/// An option of its own for one number.
+template <class Number>
+void add_number(CLI::App& cli, const char* flag, Number& value, const char* what) {
+  cli.add_option(flag, value, what)->capture_default_str();
+}
+void add_outliers(CLI::App& cli, double& share, const char* what);
+/// `--rotor`, counted from 1.
+void add_rotor(CLI::App& cli, int& rotor);
+/// `--outliers`, `--autocorrelation` and `--command`, whose words `columns` names.
+void add_recording_options(CLI::App& cli, BenchDisturbance& disturbance, CommandColumn& command,
+                           const char* columns);
 
 /// The sentence at the top of a simulated file: command and seed.
 std::vector<std::string> provenance(const std::string& what, const std::string& vehicle, std::uint64_t seed);

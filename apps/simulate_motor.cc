@@ -25,30 +25,18 @@ void add_simulate_motor(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   CLI::App* sub = cli.add_subcommand("motor", "steps of the command up and down, and the speed of the rotor");
   add_simulate_options(*sub, o->file);
   MotorSteps& s = o->steps;
-  const auto number = [&](const char* flag, auto& value, const char* what) {
-    sub->add_option(flag, value, what)->capture_default_str();
-  };
-  number("--seed", s.seed, "of noise and jitter");
-  sub->add_option("--rotor", o->rotor, "its number")->check(CLI::Range(1, 8))->capture_default_str();
+  add_number(*sub, "--seed", s.seed, "of noise and jitter");
+  add_rotor(*sub, o->rotor);
   sub->add_option("--levels", s.levels, "commands, one after the other")
       ->delimiter(',')
       ->capture_default_str();
-  number("--hold", s.hold, "time at each level, s; 0: until it has settled");
-  number("--rate", s.rate, "rows a second");
+  add_number(*sub, "--hold", s.hold, "time at each level, s; 0: until it has settled");
+  add_number(*sub, "--rate", s.rate, "rows a second");
   sub->add_option("--jitter", s.jitter, "of the rows' times, share of the interval")
       ->check(CLI::Range(0.0, 0.3))
       ->capture_default_str();
-  number("--noise", s.noise, "of the speed, share of km");
-  sub->add_option("--outliers", s.disturbance.outliers, "share of readings that are far off")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  sub->add_option("--autocorrelation", s.disturbance.autocorrelation, "of the noise from row to row")
-      ->check(CLI::Range(-0.99, 0.99))
-      ->capture_default_str();
-  sub->add_option("--command", s.command, "column: delta or u (pulse width in us)")
-      ->transform(CLI::CheckedTransformer(command_columns()).description(""))
-      ->type_name("WORD")
-      ->default_str("delta");
+  add_number(*sub, "--noise", s.noise, "of the speed, share of km");
+  add_recording_options(*sub, s.disturbance, s.command, "column: delta or u (pulse width in us)");
   examples(*sub, {{"ident simulate motor --vehicle v.yaml --output steps.csv", "seven levels, six steps"},
                   {"ident simulate motor --vehicle v.yaml --output steps.csv --levels 0.3,0.7 --rate 1000",
                    "one step, sampled finely"}});

@@ -27,30 +27,18 @@ void add_simulate_thrust(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   CLI::App* sub = cli.add_subcommand("thrust", "a sweep on a thrust stand, several rows at each set-point");
   add_simulate_options(*sub, o->file);
   ThrustSweep& s = o->sweep;
-  const auto number = [&](const char* flag, auto& value, const char* what) {
-    sub->add_option(flag, value, what)->capture_default_str();
-  };
-  number("--seed", s.seed, "of the noise");
-  sub->add_option("--rotor", o->rotor, "its number")->check(CLI::Range(1, 8))->capture_default_str();
-  number("--set-points", s.set_points, "from the lowest to the highest command");
-  number("--repeats", s.repeats, "rows at each set-point");
-  number("--at-rest", s.rows_at_rest, "rows before the first");
-  number("--lowest", s.lowest, "command of the first set-point");
-  number("--highest", s.highest, "command of the last set-point");
-  number("--noise", s.noise, "of thrust and torque, share of their largest value");
-  number("--speed-noise", s.speed_noise, "share of the largest speed");
-  number("--tare-thrust", s.tare_thrust, "reading at rest, N");
-  number("--tare-torque", s.tare_torque, "reading at rest, N m");
-  sub->add_option("--outliers", s.disturbance.outliers, "share of readings that are far off")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  sub->add_option("--autocorrelation", s.disturbance.autocorrelation, "of the noise from row to row")
-      ->check(CLI::Range(-0.99, 0.99))
-      ->capture_default_str();
-  sub->add_option("--command", s.command, "column: delta, u (pulse width in us) or none")
-      ->transform(CLI::CheckedTransformer(command_columns()).description(""))
-      ->type_name("WORD")
-      ->default_str("delta");
+  add_number(*sub, "--seed", s.seed, "of the noise");
+  add_rotor(*sub, o->rotor);
+  add_number(*sub, "--set-points", s.set_points, "from the lowest to the highest command");
+  add_number(*sub, "--repeats", s.repeats, "rows at each set-point");
+  add_number(*sub, "--at-rest", s.rows_at_rest, "rows before the first");
+  add_number(*sub, "--lowest", s.lowest, "command of the first set-point");
+  add_number(*sub, "--highest", s.highest, "command of the last set-point");
+  add_number(*sub, "--noise", s.noise, "of thrust and torque, share of their largest value");
+  add_number(*sub, "--speed-noise", s.speed_noise, "share of the largest speed");
+  add_number(*sub, "--tare-thrust", s.tare_thrust, "reading at rest, N");
+  add_number(*sub, "--tare-torque", s.tare_torque, "reading at rest, N m");
+  add_recording_options(*sub, s.disturbance, s.command, "column: delta, u (pulse width in us) or none");
   sub->add_option("--supply", o->supply,
                   "its voltage: adds voltage and current; speeds then follow from ki, kv, R, I0, not from km")
       ->check(CLI::PositiveNumber)

@@ -1,7 +1,7 @@
 // Constants of the DC motor from a sweep with duty, voltage, current and shaft torque.
 //
-//   delta V = R I + kv Omega                       [Phang 20], [Selby] (1) torque = ki (I - I0) no-load
-//   current [Selby]                                   (2)
+//   delta V = R I + kv Omega      [Phang 20], [Selby]             (1)
+//   torque = ki (I - I0)          no-load current [Selby]         (2)
 //
 // V is the battery's side, delta V what the motor sees on average, I the current through the motor. A stand
 // measures the current before the speed controller, which passes power on: V I_battery = delta V I, so I =

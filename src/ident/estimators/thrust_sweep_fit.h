@@ -1,19 +1,19 @@
 // Thrust and torque constant of one sweep, with its tares and, where rows are repeated, the noise of the
 // speed.
 //
-//   thrust_i = thrust_tare + kT x_i^2 ,   torque_i = torque_tare + kQ x_i^2 (1) rest:  thrust_i = thrust_tare
-//   ,       torque_i = torque_tare
+//   thrust_i = thrust_tare + kT x_i^2 ,   torque_i = torque_tare + kQ x_i^2     in motion    (1)
+//   thrust_i = thrust_tare ,              torque_i = torque_tare                at rest
 //
 // Without repeated rows x_i is the measured speed w_i. With them the true speed Omega_j of each set-point j
 // is an unknown of its own, and of a reading's deviation from it a share is real and drives the forces:
 //
-//   w_i = Omega_j + noise ,   x_i = Omega_j + speed_share (w_i - Omega_j) (2)
+//   w_i = Omega_j + noise ,   x_i = Omega_j + speed_share (w_i - Omega_j)                    (2)
 //
 // speed_share is estimated: 0 where the speed sensor is noisy (the plain fit would then find kT too small), 1
 // where the rotor's speed itself wanders. To judge the law, an offset in motion and a linear term are added
 // to (1):
 //
-//   thrust_i = thrust_tare + offset + slope x_i + kT x_i^2 (3)
+//   thrust_i = thrust_tare + offset + slope x_i + kT x_i^2                                   (3)
 #pragma once
 
 #include <vector>

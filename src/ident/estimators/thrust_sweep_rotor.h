@@ -1,8 +1,8 @@
 // A propeller's constants without their size, and how well it turns power into thrust.
 //
-//   CT = kT/(rho A r^2) ,  CQ = kQ/(rho A r^3) ,  A = pi r^2              [Phang 10, 11] (1) momentum theory
-//   at hover: P = T^1.5/sqrt(2 rho A)                                                       (2) figure of
-//   merit = P/(Q Omega) = kT^1.5/(kQ sqrt(2 rho A))                                               (3)
+//   CT = kT/(rho A r^2) ,  CQ = kQ/(rho A r^3) ,  A = pi r^2              [Phang 10, 11]    (1)
+//   P = T^1.5/sqrt(2 rho A)                                 momentum theory at hover        (2)
+//   figure of merit = P/(Q Omega) = kT^1.5/(kQ sqrt(2 rho A))                               (3)
 #pragma once
 
 #include <optional>
