@@ -1,0 +1,110 @@
+// The rules of a verdict.
+#include "ident/gap/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ident/core/format_number.h"
+
+namespace ident {
+namespace {
+
+// A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
+constexpr double kMostlyClosed = 0.5;
+// A generic rival that gains this much on held-out flight has seen something, and that share of what the
+// causes explain is too much for a catalogue that should be enough.
+constexpr double kRivalGain = 45.0;
+constexpr double kRivalShare = 0.25;
+constexpr double kSure = 0.8;
+
+// The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
+std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
+  std::vector<std::string> names;
+  const bool wind = std::ranges::any_of(adopted, [](const Candidate& c) { return c.name == "wind"; });
+  for (const Candidate& c : adopted) {
+    if (wind && (c.name == "rotor_drag" || c.name == "parasitic_drag")) continue;
+    if (std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps) {
+  Judged out;
+  out.effects = names_of(search.best.adopted);
+  double found = 0;
+  for (const SearchStep& step : search.steps) found += step.gain;
+  if (out.effects.empty()) {
+    if (rival.total() > kRivalGain) {
+      out.status = "unknown";
+      out.sentence =
+          "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
+          "misses can "
+          "be predicted from the flight itself.";
+    } else if (!lines.empty()) {
+      out.status = "unknown";
+      out.sentence = fmt::format(
+          "Something swings or vibrates at {} Hz (seen in {}) that no cause of the catalogue explains: a "
+          "slung or "
+          "loose load, a flexible arm, a propeller out of balance.",
+          format_number(lines[0].hz, 3), lines[0].channel);
+    } else if (!jumps.empty()) {
+      out.status = "unknown";
+      out.sentence = fmt::format(
+          "Something strikes this vehicle at moments (seen in {}, most at {} s of log {}): the wash of "
+          "another "
+          "vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
+          jumps[0].channel, format_number(jumps[0].t, 3), jumps[0].log + 1);
+    } else {
+      out.status = "none";
+      out.sentence = "The model explains these logs down to the noise; no cause stands out.";
+    }
+    return out;
+  }
+  const bool remains = std::isfinite(gap.closed) && gap.closed < kMostlyClosed;
+  const bool better = rival.total() > kRivalGain && rival.total() > kRivalShare * found;
+  if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
+  if (remains || better) {
+    out.status = "unknown";
+    out.confused_with = out.effects;
+    out.sentence =
+        fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
+                    fmt::join(out.effects, " with "),
+                    remains ? "most of the gap remains with it"
+                            : "a plain regression on the flight predicts what it leaves");
+    out.effects.clear();
+    return out;
+  }
+  // Other sets that explain it about as well.
+  double own = 0;
+  for (const WeighedSet& set : search.sets) {
+    std::set<std::string> names;
+    std::vector<Candidate> members;
+    for (const int m : set.members) members.push_back(search.problem.candidates[static_cast<std::size_t>(m)]);
+    for (const std::string& n : names_of(members)) names.insert(n);
+    if (names == std::set<std::string>(out.effects.begin(), out.effects.end())) {
+      own += set.probability;
+    } else if (set.probability > 0.05) {
+      for (const std::string& n : names)
+        if (std::ranges::find(out.effects, n) == out.effects.end() &&
+            std::ranges::find(out.confused_with, n) == out.confused_with.end())
+          out.confused_with.push_back(n);
+    }
+  }
+  out.status = own < kSure && !out.confused_with.empty() ? "ambiguous" : "identified";
+  if (out.status == "identified") out.confused_with.clear();
+  out.sentence = out.status == "identified"
+                     ? fmt::format("The gap is explained by {}.", fmt::join(out.effects, " and "))
+                     : fmt::format("The gap is explained by {}, but {} would explain it about as well.",
+                                   fmt::join(out.effects, " and "), fmt::join(out.confused_with, " or "));
+  if (std::isfinite(gap.closed) && gap.closed < 0.8)
+    out.sentence += fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining);
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,25 @@
+// What is said of a gap: named, ambiguous, unknown or none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/estimators/flight_prediction.h"
+#include "ident/gap/bursts.h"
+#include "ident/gap/generic_rival.h"
+#include "ident/gap/model_search.h"
+#include "ident/gap/spectral_line.h"
+
+namespace ident {
+
+struct Judged {
+  std::string status, sentence;
+  std::vector<std::string> effects, confused_with;
+  double remaining = kNaN;
+};
+
+/// From the search, the share closed on held-out flight, and what no cause of the catalogue can do.
+Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps);
+
+}  // namespace ident
