@@ -64,8 +64,8 @@ class Progress {
   ~Progress();  ///< wipes the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// Share that is done, 0 to 1. May be called often and from several threads.
-  void update(double share);
+  /// Share that is done, 0 to 1, and what is being done. May be called often and from several threads.
+  void update(double share, const std::string& now = "");
 
  private:
   struct State;

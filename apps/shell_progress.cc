@@ -40,15 +40,16 @@ Progress::~Progress() {
   if (state_->shown) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::update(double share) {
+void Progress::update(double share, const std::string& now) {
   if (!state_->on_terminal) return;
   const std::lock_guard lock(state_->mutex);
   if (Clock::now() < state_->next) return;
   state_->next = Clock::now() + std::chrono::milliseconds(100);
   state_->shown = true;
   const double done = std::clamp(share, 0.0, 1.0);
-  fmt::print(stderr, "\r\033[K{} {:.0f} %{}", state_->what, 100.0 * done,
-             time_left(std::chrono::duration<double>(Clock::now() - state_->start).count(), done));
+  fmt::print(stderr, "\r\033[K{} {:.0f} %{}{}{}", state_->what, 100.0 * done,
+             time_left(std::chrono::duration<double>(Clock::now() - state_->start).count(), done),
+             now.empty() ? "" : ": ", now);
   std::fflush(stderr);
 }
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <sstream>
 
 #include "support/run_program.h"
@@ -27,6 +30,19 @@ std::size_t widest_line(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) width = std::max(width, line.size());
   return width;
+}
+
+/// What a command shows to somebody who sits before it: `script` gives it a terminal.
+std::string on_terminal(const std::string& arguments, const std::string& environment = "") {
+  const std::string command = "cd '" + sample_campaign() + "' && TERM=xterm " + environment +
+                              " script -qec '" + IDENT_PROGRAM + " " + arguments +
+                              "' /dev/null 2>&1 < /dev/null";
+  std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
+  std::string shown;
+  std::array<char, 4096> chunk{};
+  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe.get())) > 0;)
+    shown.append(chunk.data(), n);
+  return shown;
 }
 
 TEST(Terminal, HelpLeadsWithExamplesAndKeepsToEightyColumns) {
@@ -79,6 +95,22 @@ TEST(Terminal, NotesOneLineForEachLogAndPaintsNothingOffATerminal) {
   EXPECT_EQ(notes, 2);
   EXPECT_EQ(run.out.find('\033'), std::string::npos);
   EXPECT_LE(widest_line(run.out), 80U);
+}
+
+TEST(Terminal, PaintsOnATerminalUnlessNoColorIsSet) {
+  if (!fs::exists("/usr/bin/script")) GTEST_SKIP() << "bsdutils, which gives a terminal, is not installed";
+  const std::string bold = "\033[1m";
+  const std::string painted = on_terminal("inertia"), plain = on_terminal("inertia", "NO_COLOR=1");
+  EXPECT_NE(painted.find(bold), std::string::npos) << painted;
+  EXPECT_NE(plain.find("Jxx"), std::string::npos) << plain;
+  EXPECT_EQ(plain.find(bold), std::string::npos) << plain;
+}
+
+TEST(Terminal, ShowsHowFarADiagnosisIsWhatItTriesAndTheTimeLeft) {
+  if (!fs::exists("/usr/bin/script")) GTEST_SKIP() << "bsdutils, which gives a terminal, is not installed";
+  const std::string shown = on_terminal("gap");
+  for (const char* part : {"\r\033[Kdiagnosing 90 %, about ", " s left: held-out flight"})
+    EXPECT_NE(shown.find(part), std::string::npos) << part << shown;
 }
 
 TEST(Terminal, NamesTheNearestWordOfAMistypedCommandOrOption) {

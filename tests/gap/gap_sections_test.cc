@@ -113,7 +113,7 @@ TEST(GapReport, SaysThatNothingStandsOutWhereTheModelIsRight) {
   below.noise *= 1.5;
   const std::vector<Section> sections = gap_sections(found("none", {}, below), below, below);
   const std::string text = all_text(sections);
-  EXPECT_NE(text.find("No channel stands above its noise."), std::string::npos) << text;
+  EXPECT_NE(text.find("No channel stands clearly above its noise."), std::string::npos) << text;
   EXPECT_EQ(text.find("That closes"), std::string::npos);
   ASSERT_EQ(sections.back().plots.size(), 3U);
   for (const Plot& plot : sections.back().plots) EXPECT_EQ(plot.series.size(), 1U) << plot.title;

@@ -1,5 +1,5 @@
-// Every report that a user of data/sample makes within seconds, in a real browser. (A refinement and a
-// diagnosis take longer to make; their sections are those of the sample results in browser_test.cc.)
+// Every report that a user of data/sample makes within seconds, in a real browser; those of a refinement and
+// a diagnosis are in browser_flight_test.cc.
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -1,6 +1,7 @@
 // Reports in a real browser: no errors, plots drawn, zoom, dark mode, phone, paper.
 #include <array>
 
+#include "ident/report/assets.h"
 #include "ident/report/report.h"
 #include "support/report_in_browser.h"
 #include "support/sample_results.h"
@@ -65,6 +66,21 @@ TEST_F(ReportInBrowser, DrawsSixHundredThousandPointsWithinASecond) {
   EXPECT_LT(browser_->busy_seconds(), 1.0)
       << "by the clock drawing took " << value("document.querySelector('.chart').dataset.milliseconds")
       << " ms";
+}
+
+TEST_F(ReportInBrowser, ShowsStaticPicturesWhereThePlotLibraryIsMissing) {
+  std::string page = render_html(sample_parameter_result());
+  if (const std::size_t at = page.find(kPlotLibrary); !kPlotLibrary.empty())
+    page.erase(at, kPlotLibrary.size());
+  open(page);
+  see_everything();
+  EXPECT_TRUE(browser_->errors().empty()) << browser_->errors().front();
+  EXPECT_EQ(value("document.querySelectorAll('.chart.live, canvas').length"), 0);
+  EXPECT_EQ(
+      value("[...document.querySelectorAll('.picture svg')].filter((s) => !s.getClientRects().length || "
+            "!s.querySelector('path, rect')).length"),
+      0);
+  EXPECT_GE(value("document.querySelectorAll('.picture svg').length"), 5);
 }
 
 TEST_F(ReportInBrowser, KeepsContrastInLightAndDark) {

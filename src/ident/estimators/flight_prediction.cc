@@ -1,21 +1,14 @@
-// Windows of held-out flight: state from the past, prediction, and the floor from sensors, state error and
-// gusts.
+// Prediction errors of windows of held-out flight, and their floor from sensors, state error and gusts.
 #include "ident/estimators/flight_prediction.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "ident/estimators/flight_windows.h"
+
 namespace ident {
 namespace {
-
-// The rows [begin, end) of an arc as an arc of its own, with the gyro bias taken off.
-FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const std::array<double, 3>& bias) {
-  FlightArc out = arc.piece(begin, end);
-  for (std::size_t i = 0; i < out.rows(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) out.y[i * kChannels + k] -= bias[k];
-  return out;
-}
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -29,25 +22,6 @@ void expect_outside(RowMatrix& P, int at, const std::array<ColouredNoise, 3>& no
     P.row(at + i).setZero(), P.col(at + i).setZero();
     P(at + i, at + i) = axis.sigma * axis.sigma * moved;
   }
-}
-
-struct Start {
-  std::size_t arc, first, row;  ///< history from `first`, window from `row`
-};
-
-std::vector<Start> window_starts(const FlightRecord& record, const PredictionOptions& options) {
-  std::vector<Start> starts;
-  const double shortest = *std::ranges::min_element(options.horizons);
-  for (std::size_t a = 0; a < record.arcs.size(); ++a) {
-    const FlightArc& arc = record.arcs[a];
-    for (double t = arc.t.front() + options.history; t + shortest < arc.t.back(); t += options.spacing) {
-      const auto at = [&](double x) {
-        return static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), x) - arc.t.begin());
-      };
-      starts.push_back({a, at(t - options.history), at(t)});
-    }
-  }
-  return starts;
 }
 
 }  // namespace
@@ -69,41 +43,20 @@ double PredictionWindow::floor2() const {
 std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& record, const Theta& theta,
                                                            const Eigen::VectorXd& u, const NoiseModel& noise,
                                                            const PredictionOptions& options) {
-  const std::vector<double> p = theta.p(u);
-  const Theta fixed(p, {}, 1, false);
-  FlightRecord past = without_arcs(record);
-  const std::vector<Start> starts = window_starts(record, options);
+  const double shortest = *std::ranges::min_element(options.horizons);
+  const FlightWindows starts(record, theta, u, noise,
+                             {options.history, options.spacing, shortest, options.threads});
   std::vector<std::vector<PredictionWindow>> all(options.horizons.size());
-  if (starts.empty()) return all;
-  for (const Start& s : starts)
-    past.arcs.push_back(
-        piece(record.arcs[s.arc], s.first, s.row + 1, theta.gyro_bias(u, record.arcs[s.arc].log)));
-  FlightSmoother smoother(past, fixed, noise, std::clamp(chunk_for(record, noise), 0.04, 0.4),
-                          options.threads);
-  smoother.settle(Eigen::VectorXd(0), 2);
-  const std::vector<FlightSmoother::End> ends = smoother.arc_ends();
-  std::array<double, kChannels> weight;
-  for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / noise.sigma[c];
-  ChunkTask task;
-  task.vehicle = record.vehicle, task.layout = record.layout;
-  task.p = p, task.active = active_effects(p);
-  task.weight = weight.data();
-  task.huber = 1e6;  // errors of a wrong model count in full
   const auto predict = [&](std::size_t w, double horizon) {
     const FlightArc& arc = record.arcs[starts[w].arc];
-    const double until = arc.t[starts[w].row] + horizon;
-    ChunkTask one = task;
-    one.inputs = arc.inputs.get(), one.gyro_bias = theta.gyro_bias(u, arc.log);
-    one.begin = starts[w].row, one.rows = arc.rows();
-    one.end = static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), until) - arc.t.begin());
-    one.t = arc.t.data(), one.y = arc.y.data(), one.q = arc.q.data();
-    one.x0 = ends[w].x;
-    one.x0.outside = {};  // no model predicts gusts: they count in the floor
-    RowMatrix P = ends[w].P;
-    expect_outside(P, task.layout.w_dot, noise.in_log(arc.log).w_dot, horizon);
-    expect_outside(P, task.layout.v_dot, noise.in_log(arc.log).v_dot, horizon);
-    for (int n = 0; n < task.layout.rotors && task.layout.motors >= 0; ++n)
-      P(task.layout.motors + n, task.layout.motors + n) += noise.q_motor * horizon / 2;
+    ChunkTask one = starts.task(w, horizon);
+    const StateLayout& layout = one.layout;
+    RowMatrix P = starts.covariance(w);
+    // No model predicts gusts: they count in the floor.
+    expect_outside(P, layout.w_dot, noise.in_log(arc.log).w_dot, horizon);
+    expect_outside(P, layout.v_dot, noise.in_log(arc.log).v_dot, horizon);
+    for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n)
+      P(layout.motors + n, layout.motors + n) += noise.q_motor * horizon / 2;
     one.covariance = P.data();
     ChunkResult result;
     PredictionWindow window;
@@ -116,7 +69,7 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
   };
   for (std::size_t h = 0; h < options.horizons.size(); ++h) {
     std::vector<PredictionWindow> windows(starts.size());
-    smoother.in_parallel(starts.size(), [&](std::size_t w) { windows[w] = predict(w, options.horizons[h]); });
+    starts.in_parallel([&](std::size_t w) { windows[w] = predict(w, options.horizons[h]); });
     std::erase_if(windows, [](const PredictionWindow& w) { return !std::isfinite(w.error2()); });
     all[h] = std::move(windows);
   }

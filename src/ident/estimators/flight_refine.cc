@@ -8,14 +8,20 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_command_offset.h"
+#include "ident/estimators/flight_profile.h"
+#include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/estimators/flight_traces.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
 namespace {
 
 using Eigen::VectorXd;
+
+constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
 
 double mean_of_used(const std::vector<double>& column) {
   double sum = 0, n = 0;
@@ -60,8 +66,8 @@ nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
   return {{"std", std}, {"correlation_time", time}};
 }
 
-Table validation_table(const FlightRecord& held_out, const Theta& theta, const VectorXd& before,
-                       const FlightFit& fit, Result& result) {
+Section validation(const FlightRecord& held_out, const Theta& theta, const VectorXd& before,
+                   const FlightFit& fit, Result& result) {
   Table table{"Prediction error on held-out flight, in noise standard deviations",
               {"horizon s", "parameters before", "refined", "floor", "windows"},
               {}};
@@ -83,7 +89,16 @@ Table validation_table(const FlightRecord& held_out, const Theta& theta, const V
                    {"windows", b.windows}});
   }
   result.fit["held_out"] = all;
-  return table;
+  std::vector<int> channels = channels_that_gain(stated.back(), refined.back());
+  channels.resize(std::min<std::size_t>(channels.size(), 2));
+  return {
+      .title = "Held-out prediction",
+      .text =
+          "Fitted to the first 70 % of each log, judged on the rest: the state is estimated from the past "
+          "only, then predicted.",
+      .tables = {std::move(table)},
+      .plots = prediction_traces(held_out, {"parameters before", &theta, before}, {"refined", &theta, fit.u},
+                                 fit.noise, channels, {0.5, 1.0})};
 }
 
 }  // namespace
@@ -192,7 +207,7 @@ Section data_health(const FlightRecord& record, std::span<const FlightLog> logs,
     for (const std::string& notice : log.notices) section.text += notice + "\n";
   section.text += fmt::format("{:.1f} s in flight in {} piece{}, one row every {:.4g} s.", record.duration,
                               record.arcs.size(), record.arcs.size() == 1 ? "" : "s", record.interval);
-  Table table{"Noise levels found", {"channel", "white noise", "samples"}, {}};
+  Table table{"Noise levels found", {"channel", "white noise", "unit", "samples"}, {}};
   for (int c = 0; c < kChannels; ++c) {
     std::size_t samples = 0;
     for (const FlightArc& arc : record.arcs)
@@ -200,7 +215,7 @@ Section data_health(const FlightRecord& record, std::span<const FlightLog> logs,
         samples += std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(c)]);
     if (samples > 0)
       table.rows.push_back({channel_name(c), format_number(noise.sigma[static_cast<std::size_t>(c)], 3),
-                            std::to_string(samples)});
+                            channel_unit(c), std::to_string(samples)});
   }
   section.tables.push_back(table);
   return section;
@@ -263,6 +278,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
         result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
                                               theta.name(k), theta.name(i), result.correlation(i, k)));
   result.sections.push_back(data_health(record, logs, fit.noise));
+  result.sections.push_back(flight_residuals(record, fit));
+  result.sections.push_back(outside_accelerations(record, fit));
+  std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
+                    std::back_inserter(result.sections));
   if (options.validate && record.duration > 6) {
     const RecordSplit split = split_record(record, 0.7);
     FlightFit view = fit;
@@ -272,13 +291,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     });
     VectorXd before = view.u;
     before.head(n).setZero();  // the constants as stated, with the gyro biases of the fit
-    Section section;
-    section.title = "Held-out prediction";
-    section.text =
-        "Fitted to the first 70 % of each log, judged on the rest: the state is estimated from the past "
-        "only, then predicted.";
-    section.tables.push_back(validation_table(split.held_out, theta, before, view, result));
-    result.sections.push_back(section);
+    result.sections.push_back(validation(split.held_out, theta, before, view, result));
   }
   int known = 0;
   for (const Parameter& q : result.parameters) known += q.identifiable;

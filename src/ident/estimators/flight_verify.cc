@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/estimators/flight_self_test.h"
 
@@ -14,14 +15,6 @@ namespace {
 struct Sums {
   double error2 = 0, measured2 = 0, simulated2 = 0, mean = 0, spread2 = 0, n = 0;
 };
-
-std::string channel_unit(int c) {
-  if (c < kForce) return "rad/s";
-  if (c < kAttitude) return "m/s^2";
-  if (c < kVelocity) return "rad";
-  if (c < kPosition) return "m/s";
-  return c < kRotorChannel ? "m" : "rad/s";
-}
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/gap/evidence.h"
 #include "ident/gap/gap_sections.h"
 #include "ident/gap/generic_rival.h"
 #include "ident/gap/model_search.h"
@@ -54,14 +55,12 @@ Json candidates_json(const SearchResult& search, const GapClosed& gap) {
   };
   std::vector<std::pair<std::string, Entry>> list;
   const double quantile = 3.63 + 1.28;  // 1 % family-wise over the catalogue, 90 % power
-  double top = 1e-9;
   for (std::size_t c = 0; c < search.base_problem.candidates.size(); ++c) {
     const Candidate& cause = search.base_problem.candidates[c];
     auto at = std::ranges::find(list, cause.name, &std::pair<std::string, Entry>::first);
     if (at == list.end()) at = list.insert(list.end(), {cause.name, Entry{}});
     const SetGain set = gain_of(search.base_form, search.base_problem, {static_cast<int>(c)});
     at->second.gain = std::max(at->second.gain, set.physical ? set.gain : 0.0);
-    top = std::max(top, at->second.gain);
     const std::size_t many = cause.parameter >= 0 ? 1 : cause.directions.size();
     for (std::size_t d = 0; d < many; ++d) {
       const int i = cause.parameter >= 0 ? cause.parameter : cause.directions[d];
@@ -89,8 +88,10 @@ Json candidates_json(const SearchResult& search, const GapClosed& gap) {
                    {"parameters", entry.parameters}});
   }
   std::stable_sort(out.begin(), out.end(), [](const Json& a, const Json& b) {
-    return std::pair(a["probability"].get<double>(), a["evidence"].get<double>()) >
-           std::pair(b["probability"].get<double>(), b["evidence"].get<double>());
+    const auto rank = [](const Json& c) {  // probabilities that look the same do not order
+      return std::pair(std::round(1e3 * c["probability"].get<double>()), c["evidence"].get<double>());
+    };
+    return rank(a) > rank(b);
   });
   return out;
 }
@@ -205,7 +206,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);
-  result.sections = gap_sections(result.extra, before, after);
+  const GapEvidence evidence =
+      evidence_of(record, search, before, {split.held_out, stated, u_best, noise, a.back(), b.back()});
+  result.extra["signatures"] = to_json(evidence.signatures);
+  result.sections = gap_sections(result.extra, before, after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise));
   out.adopted = adopted_vehicle(vehicle, search.best);
   return out;

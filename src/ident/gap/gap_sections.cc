@@ -125,8 +125,8 @@ Table channel_table(const Json& where) {
   Table table{.title = "Residual force and moment",
               .columns = {"channel", "rms", "noise", "unit", "share [%]"}};
   for (const Json& c : where["channels"])
-    table.rows.push_back({c["name"], number_text(c["rms"]), number_text(c["noise"]), channel_unit(c["name"]),
-                          percent(c["share"])});
+    table.rows.push_back({c["name"], number_text(c["rms"]), number_text(c["noise"]),
+                          channel_unit(c["name"].get<std::string>()), percent(c["share"])});
   return table;
 }
 
@@ -149,6 +149,12 @@ Table time_table(const Json& where) {
 
 Section where_section(const Json& found, const ResidualWrench& before, const ResidualWrench& after) {
   const Json& where = found["where"];
+  if (found["verdict"]["status"] == "none")
+    return {
+        .title = "Where the gap lies",
+        .text =
+            "No channel stands clearly above its noise. The shares of the little that is left are chance.",
+        .tables = {channel_table(where)}};
   Section section{.title = "Where the gap lies",
                   .text = where_text(where),
                   .tables = {channel_table(where), regime_table(where), time_table(where)},
@@ -190,11 +196,13 @@ Section traces(const ResidualWrench& before, const ResidualWrench& after) {
 }  // namespace
 
 std::vector<Section> gap_sections(const Json& found, const ResidualWrench& before,
-                                  const ResidualWrench& after) {
+                                  const ResidualWrench& after, const GapEvidence& evidence) {
   const std::string causes = fmt::format("{}", fmt::join(causes_of(found), " and "));
   std::vector<Section> sections{how_section(found, causes)};
+  std::ranges::copy(evidence.held_out, std::back_inserter(sections.front().plots));
   if (Section which = which_section(found); !which.tables.empty() || !which.plots.empty())
     sections.push_back(std::move(which));
+  std::ranges::move(signature_sections(evidence.signatures), std::back_inserter(sections));
   sections.push_back(where_section(found, before, after));
   sections.push_back(tried_section(found));
   sections.push_back(traces(before, after));

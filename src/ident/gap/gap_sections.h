@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ident/core/result.h"
+#include "ident/gap/evidence.h"
 #include "ident/gap/residual_wrench.h"
 
 namespace ident {
@@ -11,6 +12,6 @@ namespace ident {
 nlohmann::ordered_json where_json(const ResidualWrench& wrench);
 
 std::vector<Section> gap_sections(const nlohmann::ordered_json& found, const ResidualWrench& before,
-                                  const ResidualWrench& after);
+                                  const ResidualWrench& after, const GapEvidence& evidence = {});
 
 }  // namespace ident

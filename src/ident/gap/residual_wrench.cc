@@ -17,6 +17,20 @@ double mean_over(const ChunkPlace& place, const std::vector<double>& column) {
   return sum / static_cast<double>(place.end - place.begin);
 }
 
+std::size_t samples(const std::vector<double>& residuals, std::size_t channel) {
+  std::size_t count = 0;
+  for (std::size_t i = channel; i < residuals.size(); i += kChannels) count += std::isfinite(residuals[i]);
+  return count;
+}
+
+// Variance that white noise alone gives to an acceleration found over a piece of flight: that of a slope
+// through `count` samples within h seconds, drawn towards zero by what the fit expects of accelerations.
+double shown_by_noise(double white, double count, double h, double expected) {
+  if (count < 2 || !(expected > 0)) return 0.0;
+  const double slope = 12 * white * white / (count * h * h), trust = expected * expected;
+  return slope * std::pow(trust / (trust + slope), 2);
+}
+
 }  // namespace
 
 VectorXd ResidualWrench::rms() const {
@@ -72,14 +86,21 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
         if (std::isfinite(r)) sum -= r * fit.noise.sigma[kForce + cc], count += 1;
       }
       out.residual(k, c) = m * (push_B[c] + (count > 0 ? sum / count : 0.0));
-      const double white = count > 0 ? floor.sigma[kForce + cc] : 0.0;
-      variance[c] += m * m * (gusts_B[c] + white * white / std::max(count, 1.0));
+      const AirNoise& expected = fit.noise.in_log(arc.log);
+      const double white = floor.sigma[kForce + cc],
+                   speeds = static_cast<double>(samples(residuals[at], kVelocity + cc));
+      variance[c] += m * m *
+                     (gusts_B[c] + (count > 0 ? white * white / count
+                                              : shown_by_noise(floor.sigma[kVelocity + cc], speeds, h,
+                                                               expected.v_dot[cc].sigma)));
+      const double gyro = static_cast<double>(samples(residuals[at], kGyro + cc));
+      const double moved = shown_by_noise(floor.sigma[kGyro + cc], gyro, h, expected.w_dot[cc].sigma);
       out.residual(k, 3 + c) = J[cc] * x.outside.w_dot_B[c];
-      variance[3 + c] += J[cc] * J[cc] * air.w_dot[cc].sigma * air.w_dot[cc].sigma;
+      variance[3 + c] += J[cc] * J[cc] * (std::pow(air.w_dot[cc].sigma, 2) + moved);
     }
     for (Index c = 0; rotors && c < N; ++c) {
-      if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c];
-      variance[6 + c] += floor.q_motor * h;
+      if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c] / h;
+      variance[6 + c] += floor.q_motor / h;
     }
     const Eigen::Vector3d v_B = R.transpose() * x.body.v_W, w = x.body.w_B;
     double total = 0;

@@ -1,6 +1,8 @@
 // The HTML page of a result: headings, tables and pictures in the order in which they are read.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ident/report/assets.h"
 #include "ident/report/blocks.h"
 #include "ident/report/escape.h"
@@ -28,6 +30,11 @@ std::string paragraphs(const std::string& text, const std::string& attributes = 
   return out;
 }
 
+// From so many plots on, those that need no width stand two side by side.
+constexpr std::ptrdiff_t kManyPlots = 4;
+
+bool fits_half(const Plot& plot) { return plot.kind == Plot::Kind::xy && plot.column_names.empty(); }
+
 /// Collects body, table of contents and plot data while a page is written.
 class Page {
  public:
@@ -40,12 +47,14 @@ class Page {
   }
   void add(const std::string& html) { body_ += html; }
 
-  void figure(const Plot& plot, const std::string& group) {
+  void figure(const Plot& plot, const std::string& group, PlotWidth width = PlotWidth::whole) {
     const std::string id = fmt::format("figure{}", ++figures_);
-    body_ += fmt::format("<figure id=\"{}\"><figcaption><strong>{}</strong>", id, html_text(plot.title));
+    const char* half = width == PlotWidth::half ? " class=\"half\"" : "";
+    body_ +=
+        fmt::format("<figure id=\"{}\"{}><figcaption><strong>{}</strong>", id, half, html_text(plot.title));
     if (!plot.caption.empty()) body_ += "<span>" + html_text(plot.caption) + "</span>";
     body_ += "</figcaption>\n";
-    const std::string picture = "<div class=\"picture\">" + plot_svg(plot, id) + "</div>";
+    const std::string picture = "<div class=\"picture\">" + plot_svg(plot, id, width) + "</div>";
     if (plot.kind == Plot::Kind::time_series && !kPlotLibrary.empty())
       body_ += fmt::format("<div class=\"chart\" data-plot=\"{}\">{}</div>", data_.add(plot, group), picture);
     else
@@ -59,7 +68,9 @@ class Page {
     body_ += paragraphs(section.text);
     for (const Table& table : section.tables) body_ += html_table(table, table.title);
     const std::string group = fmt::format("group{}", parts_);
-    for (const Plot& plot : section.plots) figure(plot, group);
+    const bool many = std::ranges::count_if(section.plots, fits_half) >= kManyPlots;
+    for (const Plot& plot : section.plots)
+      figure(plot, group, many && fits_half(plot) ? PlotWidth::half : PlotWidth::whole);
     body_ += "</section>\n";
   }
 

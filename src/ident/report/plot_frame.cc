@@ -66,8 +66,8 @@ double PlotFrame::draw(Svg& svg, const std::vector<LegendEntry>& legend) {
       std::max(30.0, widest(vertical) + kTickGap + 6) + (side.empty()                    ? 0
                                                          : two_lines(side, inner_height) ? 36
                                                                                          : 24);
-  corner = {left, kTop + draw_legend(svg, legend, left, kPaperWidth - kRight)};
-  width = kPaperWidth - kRight - left;
+  corner = {left, kTop + draw_legend(svg, legend, left, paper_width - kRight)};
+  width = paper_width - kRight - left;
   height = inner_height;
   const double base = corner.y + height;
 

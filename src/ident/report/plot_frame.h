@@ -23,10 +23,11 @@ struct PlotFrame {
   std::string along_label, across_label;
   bool sideways = false;
   double inner_height = 260;
+  double paper_width = kPaperWidth;
   PaperPoint corner{0, 0};       ///< of the inside, top left; set by draw
   double width = 0, height = 0;  ///< of the inside, likewise
 
-  static constexpr double kPaperWidth = 720;
+  static constexpr double kPaperWidth = 720, kHalfPaperWidth = 430;
 
   /// Draws all but the data and returns the height of the paper.
   double draw(Svg& svg, const std::vector<LegendEntry>& legend);

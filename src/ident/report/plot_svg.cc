@@ -69,13 +69,15 @@ Extent extent_across(const Plot& plot) {
   return extent;
 }
 
-PlotFrame frame_of(const Plot& plot) {
+PlotFrame frame_of(const Plot& plot, PlotWidth width) {
   PlotFrame frame{.along_label = plot.x_label, .across_label = plot.y_label};
+  if (width == PlotWidth::half) frame.paper_width = PlotFrame::kHalfPaperWidth, frame.inner_height = 220;
+  const int along_ticks = width == PlotWidth::half ? 5 : 7;
   const bool points = has(plot, Style::points), bars = has(plot, Style::bars);
   if (plot.column_names.empty()) {
-    frame.along =
-        plot.log_x ? Scale::logarithmic(extent_along(plot))
-                   : Scale::linear(extent_along(plot), 7, points && !bars ? Padding{0.02, 0.02} : Padding{});
+    frame.along = plot.log_x ? Scale::logarithmic(extent_along(plot))
+                             : Scale::linear(extent_along(plot), along_ticks,
+                                             points && !bars ? Padding{0.02, 0.02} : Padding{});
   } else {
     double room = 0;
     for (const std::string& name : plot.column_names) room = std::max(room, label_width(name) + 12);
@@ -202,7 +204,7 @@ std::string label_of(const Plot& plot) {
   return label;
 }
 
-std::string draw_plot(const Plot& plot, const std::string& id, const std::string& style) {
+std::string draw_plot(const Plot& plot, const std::string& id, const std::string& style, PlotWidth width) {
   if (plot.kind == Plot::Kind::heat_map) return heat_map_svg(plot, style);
   const std::vector<int> colours = channel_colours(plot.series);
   std::vector<LegendEntry> legend;
@@ -210,20 +212,24 @@ std::string draw_plot(const Plot& plot, const std::string& id, const std::string
     if (const Series& s = plot.series[i]; !s.name.empty())
       legend.push_back({pretty_unit(s.name), class_of(s, colours[i])});
   Svg svg;
-  PlotFrame frame = frame_of(plot);
+  PlotFrame frame = frame_of(plot, width);
   const double height = frame.draw(svg, plot.series.size() > 1 ? legend : std::vector<LegendEntry>{});
   svg.open_clip(id + "-inside", frame.corner, frame.width, frame.height);
   for (const Style layer : kDrawingOrder)
     for (std::size_t i = 0; i < plot.series.size(); ++i)
       if (plot.series[i].style == layer) draw_series(svg, plot, plot.series[i], frame, colours[i]);
   svg.close_clip();
-  return svg.finish(PlotFrame::kPaperWidth, height, label_of(plot), style);
+  return svg.finish(frame.paper_width, height, label_of(plot), style);
 }
 
 }  // namespace
 
-std::string plot_svg(const Plot& plot, const std::string& id) { return draw_plot(plot, id, ""); }
+std::string plot_svg(const Plot& plot, const std::string& id, PlotWidth width) {
+  return draw_plot(plot, id, "", width);
+}
 
-std::string standalone_svg(const Plot& plot) { return draw_plot(plot, "plot", picture_style()); }
+std::string standalone_svg(const Plot& plot) {
+  return draw_plot(plot, "plot", picture_style(), PlotWidth::whole);
+}
 
 }  // namespace ident

@@ -1,0 +1,29 @@
+// Names the two models of the traces and asks for the channels in which the second gains most.
+#include "ident/gap/evidence.h"
+
+#include "ident/estimators/flight_traces.h"
+
+namespace ident {
+namespace {
+
+constexpr std::size_t kChannelsShown = 2;
+
+std::string name_of_found(const FittedModel& best) {
+  std::string names;
+  for (const Candidate& cause : best.adopted) names += (names.empty() ? "with " : " and ") + described(cause);
+  return names.empty() ? "refitted" : names;
+}
+
+}  // namespace
+
+GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search, const ResidualWrench& before,
+                        const HeldOutFlight& held_out) {
+  std::vector<int> channels = channels_that_gain(held_out.errors_before, held_out.errors_after);
+  channels.resize(std::min(channels.size(), kChannelsShown));
+  const TracedModel given{"model as given", search.base.theta.get(), held_out.as_given},
+      found{name_of_found(search.best), search.best.theta.get(), held_out.found};
+  return {prediction_traces(held_out.record, given, found, held_out.noise, channels, {0.5, 1.0}),
+          signatures(record, search, before)};
+}
+
+}  // namespace ident

@@ -1,0 +1,26 @@
+// What convinces an engineer besides numbers: signatures of the causes, held-out flight before and after.
+#pragma once
+
+#include "ident/estimators/flight_prediction.h"
+#include "ident/gap/signature.h"
+
+namespace ident {
+
+struct GapEvidence {
+  std::vector<Plot> held_out;  ///< predictions over 0.5 and 1 s in the channels where the causes gain most
+  std::vector<Signature> signatures;
+};
+
+/// The flight on which the models are judged: unknowns of the base model as given and of the model found, and
+/// their errors over the longest horizon.
+struct HeldOutFlight {
+  const FlightRecord& record;
+  const Eigen::VectorXd &as_given, &found;
+  const NoiseModel& noise;
+  const std::vector<PredictionWindow>&errors_before, &errors_after;
+};
+
+GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search, const ResidualWrench& before,
+                        const HeldOutFlight& held_out);
+
+}  // namespace ident
