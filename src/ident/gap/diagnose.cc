@@ -207,7 +207,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =
-      evidence_of(record, search, before, {split.held_out, stated, u_best, noise, a.back(), b.back()});
+      evidence_of(record, search, {split.held_out, stated, u_best, noise, a.back(), b.back()});
   result.extra["signatures"] = to_json(evidence.signatures);
   result.sections = gap_sections(result.extra, before, after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise));

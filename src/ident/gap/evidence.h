@@ -20,7 +20,7 @@ struct HeldOutFlight {
   const std::vector<PredictionWindow>&errors_before, &errors_after;
 };
 
-GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search, const ResidualWrench& before,
+GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search,
                         const HeldOutFlight& held_out);
 
 }  // namespace ident

@@ -109,7 +109,7 @@ Plot probability_plot(const Json& candidates) {
   for (const Json& candidate : candidates)
     if (number(candidate["probability"]) > kWorthShowing && plot.column_names.size() < kMostCauses)
       add_bar(plot, candidate["effect"], number(candidate["probability"]));
-  if (plot.column_names.empty()) plot.series.clear();
+  if (plot.column_names.size() < 2) plot.series.clear();  // one bar says no more than the table
   return plot;
 }
 

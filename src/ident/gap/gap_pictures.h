@@ -13,7 +13,7 @@ Plot waterfall_plot(const nlohmann::ordered_json& found, const std::string& caus
 Plot channel_plot(const nlohmann::ordered_json& where);
 Plot band_plot(const nlohmann::ordered_json& where);
 
-/// Probabilities of the causes that have one worth showing; without series if there is none.
+/// Probabilities of the causes that have one worth showing; without series unless there are two to compare.
 Plot probability_plot(const nlohmann::ordered_json& candidates);
 
 /// Residual of a channel over the time of the first log, and over a regime variable; `after` may be the same

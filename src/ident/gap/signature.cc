@@ -1,7 +1,8 @@
-// Runs every chunk of the base model's flight with and without the cause, from the same state.
+// Compares every chunk of flight with the model found, with and without the cause, from the same state.
 #include "ident/gap/signature.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ident/effects/catalogue.h"
@@ -38,11 +39,12 @@ Switch switch_of(const Candidate& cause, const FittedModel& best, const std::vec
   return out;
 }
 
-/// What the model with constants p expects of each chunk in the channels of the residual, from the states of
-/// a fit. Only differences mean something.
-class Expectation {
+/// What the measurements of each chunk lack of a model with constants p, in the channels of the residual
+/// wrench: means and slopes of measured minus predicted, from the states of a fit and without any push from
+/// outside. Nothing is smoothed in it, so it is not drawn towards zero. NaN where nothing was sampled.
+class Lack {
  public:
-  Expectation(const FlightRecord& record, const FittedModel& base)
+  Lack(const FlightRecord& record, const FittedModel& base)
       : record_(record), base_(base), p_base_(base.theta->p(base.fit.u)) {
     for (std::size_t c = 0; c < kChannels; ++c) weight_[c] = 1.0 / base.fit.noise.sigma[c];
   }
@@ -52,6 +54,23 @@ class Expectation {
     MatrixXd out(static_cast<Index>(smoother.chunks().size()), channels);
     smoother.in_parallel(smoother.chunks().size(),
                          [&](std::size_t k) { out.row(static_cast<Index>(k)) = row(k, p, channels); });
+    return out;
+  }
+
+  /// What white noise of the sensors puts into a row.
+  VectorXd noise(const NoiseModel& white, Index channels) const {
+    const FlightSmoother& smoother = *base_.fit.smoother;
+    const bool force = record_.signals.force;
+    const double h = smoother.chunk_seconds(), n = std::max(h / record_.interval, 2.0);
+    const double mean = 1 / std::sqrt(n), slope = std::sqrt(12 / n) / h;
+    VectorXd out(channels);
+    for (Index c = 0; c < channels; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      out[c] = c >= 6   ? slope * white.sigma[kRotorChannel + at - 6]
+               : c >= 3 ? slope * white.sigma[kGyro + at - 3] * p_base_[inertia_[at - 3]]
+               : force  ? mean * white.sigma[kForce + at] * p_base_[param::m]
+                        : slope * white.sigma[kVelocity + at] * p_base_[param::m];
+    }
     return out;
   }
 
@@ -67,32 +86,50 @@ class Expectation {
     task.begin = place.begin, task.end = place.end, task.rows = arc.rows();
     task.t = arc.t.data(), task.y = arc.y.data(), task.q = arc.q.data();
     task.weight = weight_.data(), task.x0 = smoother.states()[k], task.jacobian = false;
+    task.x0.outside = {};
     ChunkResult result;
     evaluate_chunk(task, result);
-    const double h = arc.t[place.end] - arc.t[place.begin], m = p_base_[param::m];
-    const Eigen::Vector3d J{p_base_[param::Jxx], p_base_[param::Jyy], p_base_[param::Jzz]};
-    const FlightState<double>& end = result.x_end;
-    const Eigen::Vector3d v_dot_B = rotation(task.x0.body.q_WB).transpose() * end.body.v_W / h;
+    const auto line = [&](std::size_t channel) { return line_of(result, arc, place, channel); };
+    const Eigen::Vector3d v_dot_W{line(kVelocity).slope, line(kVelocity + 1).slope,
+                                  line(kVelocity + 2).slope};
+    const Eigen::Vector3d v_dot_B = rotation(task.x0.body.q_WB).transpose() * v_dot_W;
     Eigen::RowVectorXd out(channels);
     for (Index c = 0; c < 3; ++c) {
-      double sum = 0, count = 0;
-      for (std::size_t i = 0; i < place.end - place.begin; ++i) {
-        const std::size_t at = kForce + static_cast<std::size_t>(c);
-        const double r = result.residuals[i * kChannels + at];
-        if (std::isfinite(r)) sum += r / weight_[at], count += 1;
-      }
-      out[c] = m * (count > 0 ? sum / count : v_dot_B[c]);
-      out[3 + c] = J[c] * end.body.w_B[c] / h;
+      const auto at = static_cast<std::size_t>(c);
+      out[c] = p_base_[param::m] * (record_.signals.force ? line(kForce + at).mean : v_dot_B[c]);
+      out[3 + c] = p_base_[inertia_[at]] * line(kGyro + at).slope;
     }
-    for (Index c = 6; c < channels; ++c) out[c] = end.motors[static_cast<std::size_t>(c - 6)].Omega / h;
+    for (Index c = 6; c < channels; ++c) out[c] = line(kRotorChannel + static_cast<std::size_t>(c - 6)).slope;
     return out;
   }
 
+  struct Line {
+    double mean = kNaN, slope = kNaN;
+  };
+  // Of measured minus predicted over the time of a chunk.
+  Line line_of(const ChunkResult& result, const FlightArc& arc, const ChunkPlace& place,
+               std::size_t channel) const {
+    double n = 0, t1 = 0, t2 = 0, y1 = 0, ty = 0;
+    for (std::size_t i = 0; i < place.end - place.begin; ++i) {
+      const double y = -result.residuals[i * kChannels + channel] / weight_[channel];
+      const double t = arc.t[place.begin + i] - arc.t[place.begin];
+      if (std::isfinite(y)) n += 1, t1 += t, t2 += t * t, y1 += y, ty += t * y;
+    }
+    const double spread = n * t2 - t1 * t1;
+    return {n > 0 ? y1 / n : kNaN, spread > 0 ? (n * ty - t1 * y1) / spread : kNaN};
+  }
+
+  static constexpr std::array<std::size_t, 3> inertia_{param::Jxx, param::Jyy, param::Jzz};
   const FlightRecord& record_;
   const FittedModel& base_;
   std::vector<double> p_base_;
   std::array<double, kChannels> weight_{};
 };
+
+std::string name_of(Index channel) {
+  constexpr std::array<const char*, 6> kWrench{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+  return channel < 6 ? kWrench[static_cast<std::size_t>(channel)] : "rotor" + std::to_string(channel - 5);
+}
 
 void fit_line(Signature& s) {
   const Eigen::Map<const VectorXd> x(s.x.data(), static_cast<Index>(s.x.size())),
@@ -103,13 +140,34 @@ void fit_line(Signature& s) {
   s.correlation = dx.dot(dy) / std::max(std::sqrt(dx.squaredNorm() * dy.squaredNorm()), 1e-300);
 }
 
+// Of the forces, of the moments and of the rotors that one where the prediction is largest over the noise,
+// largest first; those below the noise only where all are.
+std::vector<Index> shown_channels(const MatrixXd& predicted, const VectorXd& noise) {
+  VectorXd size(predicted.cols());
+  for (Index c = 0; c < size.size(); ++c) {
+    const auto finite = predicted.col(c).array().isFinite();
+    const double n = static_cast<double>(finite.count());
+    size[c] =
+        std::sqrt(finite.select(predicted.col(c).array().square(), 0.0).sum() / std::max(n, 1.0)) / noise[c];
+  }
+  std::vector<std::pair<double, Index>> best;
+  for (const auto& [first, last] : {std::pair<Index, Index>{0, 3}, {3, 6}, {6, size.size()}}) {
+    if (first >= last) continue;
+    Index at = 0;
+    const double top = size.segment(first, last - first).maxCoeff(&at);
+    best.emplace_back(-top, first + at);
+  }
+  std::ranges::sort(best);
+  while (best.size() > 1 && best.back().first > -1) best.pop_back();
+  std::vector<Index> channels;
+  for (const auto& [top, channel] : best) channels.push_back(channel);
+  return channels;
+}
+
 Signature signature_of(const Candidate& cause, const Switch& off, const MatrixXd& predicted,
-                       const MatrixXd& lacking, const ResidualWrench& before, const FittedModel& best) {
+                       const MatrixXd& lacking, const FittedModel& best, Index channel) {
   Signature out{.cause = described(cause)};
-  Index channel = 0;
-  predicted.colwise().squaredNorm().cwiseQuotient(before.noise.transpose().cwiseAbs2()).maxCoeff(&channel);
-  out.channel = before.names[static_cast<std::size_t>(channel)];
-  out.noise = before.noise[channel];
+  out.channel = name_of(channel);
   if (off.only >= 0) {
     const FreeConstant& c = best.theta->constants()[static_cast<std::size_t>(off.only)];
     out.parameter = c.name.substr(0, c.name.find('@')), out.parameter_unit = parameter_unit(c.name);
@@ -119,6 +177,7 @@ Signature signature_of(const Candidate& cause, const Switch& off, const MatrixXd
   }
   const Index stride = (predicted.rows() + kMostPoints - 1) / kMostPoints;
   for (Index k = 0; k < predicted.rows(); k += stride) {
+    if (!std::isfinite(lacking(k, channel))) continue;
     out.x.push_back(predicted(k, channel) / out.found);
     out.y.push_back(lacking(k, channel));
   }
@@ -128,23 +187,25 @@ Signature signature_of(const Candidate& cause, const Switch& off, const MatrixXd
 
 }  // namespace
 
-std::vector<Signature> signatures(const FlightRecord& record, const SearchResult& search,
-                                  const ResidualWrench& before) {
+std::vector<Signature> signatures(const FlightRecord& record, const SearchResult& search) {
   std::vector<Signature> out;
   if (search.best.adopted.empty()) return out;
   const std::vector<double> base = search.base.theta->p(search.base.fit.u),
                             best = search.best.theta->p(search.best.fit.u);
-  const Expectation expectation(record, search.base);
-  const Index channels = before.residual.cols();
-  const MatrixXd with_base = expectation.of(base, channels), with_best = expectation.of(best, channels);
+  const Lack lack(record, search.base);
+  const Index channels = 6 + (record.signals.rotor_speeds ? record.layout.rotors : 0);
+  const MatrixXd with_best = lack.of(best, channels);
+  const VectorXd noise = lack.noise(search.form.noise, channels);
   for (const Candidate& cause : search.best.adopted) {
     const Switch off = switch_of(cause, search.best, base);
     if (off.off.empty()) continue;
     std::vector<double> without = best;
     for (const auto& [index, value] : off.off) without[index] = value;
-    const MatrixXd taken_out = expectation.of(without, channels);
-    out.push_back(signature_of(cause, off, with_best - taken_out, before.residual + with_base - taken_out,
-                               before, search.best));
+    const MatrixXd lacking = lack.of(without, channels), predicted = lacking - with_best;
+    for (const Index channel : shown_channels(predicted, noise)) {
+      out.push_back(signature_of(cause, off, predicted, lacking, search.best, channel));
+      out.back().noise = noise[channel];
+    }
   }
   return out;
 }

@@ -7,7 +7,6 @@
 
 #include "ident/core/result.h"
 #include "ident/gap/model_search.h"
-#include "ident/gap/residual_wrench.h"
 
 namespace ident {
 
@@ -23,10 +22,10 @@ struct Signature {
   double noise = 0.0;  ///< standard deviation of a point for a perfect model
 };
 
-/// A signature for each cause of the best model, in the channel where it shows most. `before` is the residual
-/// of the base model: y is that, moved to what the model found lacks when this cause alone is taken out.
-std::vector<Signature> signatures(const FlightRecord& record, const SearchResult& search,
-                                  const ResidualWrench& before);
+/// Signatures of each cause of the best model, in the force, moment and rotor where it shows most. y is what
+/// the measurements lack of the model found when this cause alone is taken out of it, along the states of the
+/// base model.
+std::vector<Signature> signatures(const FlightRecord& record, const SearchResult& search);
 
 nlohmann::ordered_json to_json(const std::vector<Signature>& signatures);
 

@@ -21,7 +21,7 @@ std::string with_unit(double value, double std, const std::string& unit) {
 }
 
 std::string caption_of(const Signature& s) {
-  const std::string tightness = fmt::format("correlation {:.2f}", s.correlation);
+  const std::string tightness = fmt::format("correlation {:.3f}", s.correlation);
   if (s.parameter.empty())
     return fmt::format("A line through these points has the slope {}, where 1 is the size found; {}.",
                        format_number(s.slope, 3), tightness);
@@ -39,14 +39,14 @@ Plot scatter(const Signature& s) {
   };
   const std::string per_unit =
       s.parameter_unit == "-" || s.parameter.empty() ? unit : unit + " per " + s.parameter_unit;
-  return {.id = "signature-" + s.cause,
+  return {.id = fmt::format("signature-{}-{}", s.cause, s.channel),
           .title = fmt::format("Signature of {} in {}", s.cause, s.channel),
           .caption = caption_of(s),
           .x_label = s.parameter.empty()
                          ? fmt::format("{} as {} predicts it [{}]", s.channel, s.cause, unit)
                          : fmt::format("{} per unit of {} [{}]", s.channel, s.parameter, per_unit),
           .y_label = fmt::format("{} that the model lacks [{}]", s.channel, unit),
-          .series = {{.name = "3 sigma of a perfect model",
+          .series = {{.name = "3 sigma of the sensors",
                       .x = ends,
                       .y = line(s.found, -3 * s.noise),
                       .y2 = line(s.found, 3 * s.noise),

@@ -173,7 +173,10 @@ void draw_bars(Svg& svg, const Plot& plot, const Series& s, const PlotFrame& fra
       const bool inside = tip.x > frame.corner.x + frame.width - label_width(value) - 8;
       svg.text({tip.x + (inside ? -5 : 5), tip.y + 4}, value, inside ? "value inside end" : "value");
     } else {
-      svg.text({tip.x, tip.y + (s.y[i] >= from ? -5 : 14)}, value, "value middle");
+      // A floating bar carries its value inside: below it there may be no room.
+      const bool inside = std::isfinite(second(s, i)) && std::abs(b.y - a.y) > 24;
+      const double y = inside ? (a.y + b.y) / 2 + 4 : tip.y + (s.y[i] >= from ? -5 : 14);
+      svg.text({tip.x, y}, value, inside ? "value inside middle" : "value middle");
     }
   }
 }
