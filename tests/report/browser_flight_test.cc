@@ -101,11 +101,11 @@ TEST_F(FlightReportInBrowser, RefinementShowsResidualsProfilesAndHeldOutTracesIn
   expect_alive("refine.html");
   expect_zoom();
   expect_on_paper({"Parameters", "Checks and warnings", "Data health", "Residuals of the fit",
-                   "Residuals over time: body rates", "Distribution of the residuals: specific force",
-                   "Residuals against the normal distribution: velocity",
-                   "Autocorrelation of the residuals: position", "Spectrum of the residuals: attitude",
-                   "Accelerations from outside", "Profile likelihood of weak parameters",
-                   "Held-out prediction", "Simulated against measured", "Correlation", "Provenance"});
+                   "Residuals over time: body rates", "Distribution: specific force",
+                   "Against the normal distribution: velocity", "Autocorrelation: position",
+                   "Spectrum: attitude", "Accelerations from outside",
+                   "Profile likelihood of weak parameters", "Held-out prediction",
+                   "Simulated against measured", "Correlation", "Provenance"});
 }
 
 }  // namespace

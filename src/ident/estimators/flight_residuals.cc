@@ -121,13 +121,12 @@ void add_pictures(Section& section, const Sensor& sensor,
     plot.kind = Plot::Kind::time_series, plot.y_label = "residual over noise [-]", plot.caption.clear();
     return plot;
   });
-  add("Distribution of the residuals: ", Style::line,
-      [&](const ChannelResidual& c) { return histogram_plot(names(c), c.r); });
-  add("Residuals against the normal distribution: ", Style::points,
+  add("Distribution: ", Style::line, [&](const ChannelResidual& c) { return histogram_plot(names(c), c.r); });
+  add("Against the normal distribution: ", Style::points,
       [&](const ChannelResidual& c) { return normal_quantile_plot(names(c), c.r); });
-  add("Autocorrelation of the residuals: ", Style::line,
+  add("Autocorrelation: ", Style::line,
       [&](const ChannelResidual& c) { return autocorrelation_plot(names(c), c.r); });
-  add("Spectrum of the residuals: ", Style::line, [&](const ChannelResidual& c) {
+  add("Spectrum: ", Style::line, [&](const ChannelResidual& c) {
     Plot plot = spectrum_plot(names(c), c.r, usual_step(c.t));
     plot.y_label = "density [1/Hz]";
     return plot;

@@ -80,7 +80,7 @@ class Lack {
     const ChunkPlace& place = smoother.chunks()[k];
     const FlightArc& arc = record_.arcs[static_cast<std::size_t>(place.arc)];
     ChunkTask task;
-    task.vehicle = record_.vehicle, task.inputs = &arc.inputs, task.layout = record_.layout;
+    task.vehicle = record_.vehicle, task.inputs = arc.inputs.get(), task.layout = record_.layout;
     task.p = p, task.active = active_effects(p);
     task.gyro_bias = base_.theta->gyro_bias(base_.fit.u, arc.log);
     task.begin = place.begin, task.end = place.end, task.rows = arc.rows();
