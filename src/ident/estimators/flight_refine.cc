@@ -22,7 +22,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
-
 double mean_of_used(const std::vector<double>& column) {
   double sum = 0, n = 0;
   for (const double x : column)
@@ -81,12 +80,9 @@ Section validation(const FlightRecord& held_out, const Theta& theta, const Vecto
     if (b.windows == 0) continue;
     table.rows.push_back({format_number(horizon), format_number(a.error, 3), format_number(b.error, 3),
                           format_number(b.floor, 3), std::to_string(b.windows)});
-    all.push_back({{"horizon", horizon},
-                   {"before", a.error},
-                   {"after", b.error},
-                   {"after_ci95", b.ci95},
-                   {"noise_floor", b.floor},
-                   {"windows", b.windows}});
+    nlohmann::ordered_json one{{"horizon", horizon}, {"before", a.error}, {"after", b.error}};
+    one.update({{"after_ci95", b.ci95}, {"noise_floor", b.floor}, {"windows", b.windows}});
+    all.push_back(one);
   }
   result.fit["held_out"] = all;
   std::vector<int> channels = channels_that_gain(stated.back(), refined.back());
