@@ -79,6 +79,7 @@ class FlightReportInBrowser : public ReportInBrowser {
 };
 
 TEST_F(FlightReportInBrowser, DiagnosisShowsSignatureAndHeldOutTracesInLightDarkAndPrint) {
+  if (!has_interactive_plots()) GTEST_SKIP() << "uPlot is not there (npm ci in src/ident/report)";
   fly();
   run({"gap", "flight.csv", "--vehicle", "model.yaml", "--report", "gap.html"});
   expect_alive("gap.html");
@@ -96,6 +97,7 @@ TEST_F(FlightReportInBrowser, DiagnosisShowsSignatureAndHeldOutTracesInLightDark
 }
 
 TEST_F(FlightReportInBrowser, RefinementShowsResidualsProfilesAndHeldOutTracesInLightDarkAndPrint) {
+  if (!has_interactive_plots()) GTEST_SKIP() << "uPlot is not there (npm ci in src/ident/report)";
   fly();
   run({"flightlog", "flight.csv", "--vehicle", "model.yaml", "--refine", "--report", "refine.html"});
   expect_alive("refine.html");

@@ -63,7 +63,7 @@ bool ReportInBrowser::can_read_pdf() { return fs::exists("/usr/bin/pdftotext"); 
 std::string ReportInBrowser::printed_text() {
   const fs::path pdf = folder_ / "page.pdf";
   std::ofstream(pdf, std::ios::binary) << browser_->print();
-  const std::string command = "pdftotext -layout '" + pdf.string() + "' -";
+  const std::string command = "pdftotext -raw '" + pdf.string() + "' -";
   std::string text;
   std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
   std::array<char, 4096> chunk{};
