@@ -85,7 +85,7 @@ class Flight {
   }
 
   /// Steady motor speeds for the command that holds at t: a start when nothing else is known.
-  S steady_speed(std::size_t rotor, double t) const { return target(rotor, t, 1e-6); }
+  S steady_speed(std::size_t rotor, double t) const { return target(rotor, t, 1e-6).mean; }
 
   /// The motors alone, h seconds on.
   void advance(std::array<MotorState<S>, kMaxRotors>& motors, double t, double h) {
@@ -146,19 +146,31 @@ class Flight {
     }
   }
 
-  // Right-hand side of (1) over omega_m^2: Omega_0 + km delta, with the drive seam.
-  S target(std::size_t rotor, double t, double h) const {
+  // Right-hand side of (1) over omega_m^2 as a line over the step: Omega_0 + km delta, with the drive seam.
+  CommandLine<S> target(std::size_t rotor, double t, double h) const {
     const HeldCommand& command = inputs_->delta[rotor];
-    const S goal = constant_delay_
-                       ? sum(p_[param::Omega_0],
-                             command.template mean<S>(t, t + h, value(delays_.command_delay)), p_[param::km])
-                       : S(p_[param::Omega_0] +
-                           p_[param::km] * command.template mean<S>(t, t + h, delays_.command_delay));
+    CommandLine<S> goal;
+    const auto set = [&](const auto& line) {
+      goal.mean = p_[param::Omega_0] + line.mean * p_[param::km];
+      goal.bent = line.bent;
+      goal.slope = line.bent ? S(line.slope * p_[param::km]) : S(0.0);
+    };
+    if (constant_delay_)
+      set(command.template line<S>(t, t + h, value(delays_.command_delay)));
+    else
+      set(command.template line<S>(t, t + h, delays_.command_delay));
     if (!gain_) return goal;
     DriveSeam<S> drive{t - inputs_->t0, 1.0, !inputs_->voltage_ratio.empty(), S(1.0), S(1.0)};
     if (drive.has_voltage) drive.voltage_ratio = interpolated(inputs_->voltage_ratio, t + h / 2);
     effects_->apply(drive);
-    return goal * drive.gain;
+    goal.mean = goal.mean * drive.gain, goal.slope = goal.slope * drive.gain;
+    return goal;
+  }
+
+  static MotorState<S> followed(const MotorTransition<S>& transition, const MotorState<S>& from,
+                                const CommandLine<S>& goal, const S& lag, double h) {
+    return goal.bent ? transition(from, S(goal.mean - (h / 2) * goal.slope), goal.slope, lag, h)
+                     : transition(from, goal.mean);
   }
 
   void advance_motors(const std::array<MotorState<S>, kMaxRotors>& from, double t, double h,
@@ -167,17 +179,18 @@ class Flight {
     if (h != h_) {
       h_ = h;
       up_ = motor_transition(p_[param::omega_m], p_[param::zeta_m], h);
+      lag_ = 2.0 * p_[param::zeta_m] / p_[param::omega_m];
       if (asymmetric_) down_ = motor_transition(S(p_[param::omega_m] * down_ratio_), p_[param::zeta_m], h);
     }
     for (std::size_t n = 0; n < rotors_; ++n) {
-      const S goal = target(n, t, h);
-      to[n] = up_(from[n], goal);
+      const CommandLine<S> goal = target(n, t, h);
+      to[n] = followed(up_, from[n], goal, lag_, h);
       if (!asymmetric_) continue;
       // The slower natural frequency holds while the rotor is above its target; blended over 2 rad/s so that
       // the change has a derivative.
-      const double excess = (value(from[n].Omega) - value(goal)) / 2.0;
+      const double excess = (value(from[n].Omega) - value(goal.mean)) / 2.0;
       const double share = excess > 30 ? 1.0 : excess < -30 ? 0.0 : 1.0 / (1.0 + std::exp(-excess));
-      const MotorState<S> slow = down_(from[n], goal);
+      const MotorState<S> slow = followed(down_, from[n], goal, S(lag_ / down_ratio_), h);
       to[n].Omega = to[n].Omega + share * (slow.Omega - to[n].Omega);
       to[n].Omega_dot = to[n].Omega_dot + share * (slow.Omega_dot - to[n].Omega_dot);
     }
@@ -189,7 +202,7 @@ class Flight {
   const FlightInputs* inputs_;
   std::size_t rotors_;
   TimeSeam<S> delays_;
-  S down_ratio_;
+  S down_ratio_, lag_;
   bool asymmetric_ = false, gain_ = false, outside_ = false, constant_delay_ = false;
   double h_ = -1.0;
   MotorTransition<S> up_, down_;

@@ -33,6 +33,14 @@ struct MotorTransition {
     const S d = x.Omega - target;
     return {target + p11 * d + p12 * x.Omega_dot, p21 * d + p22 * x.Omega_dot};
   }
+
+  /// The same for a target that moves on from `target` by `slope` over the h seconds of this transition;
+  /// `lag` is 2 zeta_m/omega_m. Along target - lag slope the motor follows without a transient.
+  MotorState<S> operator()(const MotorState<S>& x, const S& target, const S& slope, const S& lag,
+                           double h) const {
+    const S followed = target - lag * slope, d = x.Omega - followed, v = x.Omega_dot - slope;
+    return {followed + h * slope + p11 * d + p12 * v, slope + p21 * d + p22 * v};
+  }
 };
 
 /// Equation (2) for a step of h seconds; omega_m > 0, zeta_m > 0. No overflow for strong overdamping.
@@ -85,10 +93,19 @@ std::size_t row_before(const double* t, std::size_t n, double at) {
   return low;
 }
 
-/// A command history held from each sample to the next; answers the mean over an interval.
+/// A command over a step: the straight line with the same mean and the same first moment.
+template <class S>
+struct CommandLine {
+  S mean{}, slope{};
+  bool bent = false;  ///< the command changes within the step; else the slope is 0
+};
+
+/// A command history held from each sample to the next; answers the line that stands for it over an interval.
 ///
-/// The mean over [from - tau, to - tau] is continuous in the dead time tau and has its derivative
-/// -(delta(to - tau) - delta(from - tau))/(to - from), where a sampled command would have none.
+/// A jump by D at c seconds after the start of a step of h seconds adds D (h - c)/h to the mean and
+/// 6 D c (h - c)/h^3 to the slope. Both are continuous in the dead time tau and have a derivative, where a
+/// sampled command would have none; a mean alone would put jumps off the rows in the wrong place by up to
+/// h/8.
 class HeldCommand {
  public:
   HeldCommand() = default;
@@ -98,19 +115,25 @@ class HeldCommand {
   }
 
   /// One more sample, later than all before.
-  void append(double t, double delta) {
-    sum_.push_back(t_.empty() ? 0.0 : sum_.back() + delta_.back() * (t - t_.back()));
-    t_.push_back(t), delta_.push_back(delta);
-  }
+  void append(double t, double delta) { t_.push_back(t), delta_.push_back(delta); }
 
-  template <class S>
-  S mean(double from, double to, const S& tau) const {
-    return (integral<S>(S(to - tau)) - integral<S>(S(from - tau))) * (1.0 / (to - from));
-  }
-  /// The same for a delay that is not estimated: a plain number.
-  template <class S>
-  requires(!std::is_same_v<S, double>) double mean(double from, double to, double tau) const {
-    return (integral<S>(to - tau) - integral<S>(from - tau)) * (1.0 / (to - from));
+  /// Over [from - tau, to - tau]. `Delay` is the scalar S, or double for a delay that is not estimated; S
+  /// says which build of the code this is.
+  template <class S, class Delay>
+  CommandLine<Delay> line(double from, double to, const Delay& tau) const {
+    const double h = to - from, *t = t_.data(), *delta = delta_.data();
+    const double begin = from - value(tau), end = to - value(tau);
+    std::size_t i = row_before<S>(t, t_.size(), begin);
+    CommandLine<Delay> line{Delay(delta[i]), Delay(0.0)};
+    for (++i; i < t_.size() && t[i] < end; ++i) {
+      if (t[i] <= begin) continue;  // before the first row its value holds
+      const Delay c = tau + (t[i] - from), left = h - c;
+      const double jump = delta[i] - delta[i - 1];
+      line.mean = line.mean + (jump / h) * left;
+      line.slope = line.slope + (6 * jump / (h * h * h)) * (c * left);
+      line.bent = true;
+    }
+    return line;
   }
 
   /// Value that holds at time `at`.
@@ -120,13 +143,7 @@ class HeldCommand {
   }
 
  private:
-  template <class Tag, class S>
-  S integral(const S& at) const {
-    const std::size_t i = row_before<Tag>(t_.data(), t_.size(), value(at));
-    return sum_.data()[i] + delta_.data()[i] * (at - t_.data()[i]);
-  }
-
-  std::vector<double> t_, delta_, sum_;
+  std::vector<double> t_, delta_;
 };
 
 }  // namespace ident

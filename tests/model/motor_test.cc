@@ -1,0 +1,54 @@
+// The motor between rows: commands that change within a step.
+#include "ident/model/motor.h"
+
+#include <gtest/gtest.h>
+
+#include "ident/effects/catalogue.h"
+#include "ident/model/flight.h"
+
+namespace ident {
+namespace {
+
+constexpr double kDelay = 0.0013;
+
+/// Speed of a rotor after 0.1 s of a staircase at 250 Hz that arrives `kDelay` late.
+double speed_after(double step) {
+  Vehicle v;
+  v.rotors = layout_rotors("plus", 0.2, 0.0);
+  v.parameters = {{"m", {0.5, {}}},      {"kT", {6e-6, {}}},         {"kQ", {1e-7, {}}},  {"km", {900, {}}},
+                  {"omega_m", {60, {}}}, {"zeta_m", {0.7, {}}},      {"Jxx", {3e-3, {}}}, {"Jyy", {3e-3, {}}},
+                  {"Jzz", {5e-3, {}}},   {"dead_time", {kDelay, {}}}};
+  FlightInputs in;
+  std::vector<double> t, delta;
+  for (int i = 0; i <= 25; ++i) t.push_back(0.004 * i), delta.push_back(0.5 + 0.2 * std::sin(1.7 * i));
+  in.delta.assign(4, HeldCommand(t, delta));
+  const std::vector<double> p = parameter_vector(v);
+  const EffectSet<double> none(p, 0);
+  Flight<double, EffectSet<double>> flight(v, p, none, in);
+  std::array<MotorState<double>, kMaxRotors> motors{};
+  const int steps = static_cast<int>(std::lround(0.1 / step));
+  for (int i = 0; i < steps; ++i) flight.advance(motors, i * step, step);
+  return motors[0].Omega;
+}
+
+// 0.1 ms: every change of the command falls between two steps.
+TEST(Motor, AStepFromRowToRowPutsDelayedCommandsWhereTheyBelong) {
+  const double exact = speed_after(1e-4);
+  EXPECT_NEAR(speed_after(2e-3) / exact, 1.0, 1e-5);
+  EXPECT_NEAR(speed_after(4e-3) / exact, 1.0, 5e-5);
+}
+
+TEST(HeldCommand, TheLineHasTheMeanAndTheFirstMomentOfTheCommand) {
+  const HeldCommand command({0.0, 1.0, 2.0}, {0.0, 3.0, 1.0});
+  // From 0.5 to 2.5, no delay: 0 for 0.5, 3 for 1, 1 for 0.5: mean 3.5/2. First moment about the middle:
+  // 0 + 3 (0) + 1 (0.75)(0.5) = 0.375 = slope h^3/12.
+  const auto line = command.line<double>(0.5, 2.5, 0.0);
+  EXPECT_DOUBLE_EQ(line.mean, 1.75);
+  EXPECT_NEAR(line.slope, 0.375 * 12 / 8, 1e-14);
+  EXPECT_FALSE(command.line<double>(0.2, 0.8, 0.0).bent);
+  EXPECT_DOUBLE_EQ(command.line<double>(-3.0, -2.0, 0.0).mean, 0.0);
+  EXPECT_NEAR(command.line<double>(1.7, 2.7, 0.5).mean, 0.8 * 3.0 + 0.2 * 1.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace ident
