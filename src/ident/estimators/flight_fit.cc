@@ -177,6 +177,7 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
   problem.tolerance = tolerance / samples;  // the cost is about one a sample
   problem.max_steps = max_steps;
   problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
+    if (!theta.possible(u)) return false;
     if (last.size() == 0 || u != last) {
       system = smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
       last = u;
@@ -235,7 +236,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     if (change < 0.03) break;
     smoother->accept();
     const Newton step = newton_step(smoother->reduced(), theta, u);
-    if (step.fall < kNear)
+    if (step.fall < kNear && theta.possible(u + step.du))
       u += step.du;
     else
       u = minimise_shared(*smoother, u, 0.1, 1, &fit.steps);
@@ -245,7 +246,9 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     smoother->set_exact(true);
     u = minimise_shared(*smoother, u, options.tolerance, 30, &fit.steps, &fit.cost);
   }
-  const ReducedSystem system = smoother->stands_at(u) ? smoother->relinearize() : smoother->linearize(u);
+  // Where links let next to no noise through, the rounding of single precision would pass for information.
+  smoother->set_exact(true);
+  const ReducedSystem system = smoother->linearize(u);
   smoother->accept();
   fit.u = u;
   fit.information = system.S;
@@ -255,6 +258,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   fit.naive_covariance = inverse_of(system.S + prior);
   fit.blocks = smoother->score_blocks(options.block_seconds);
   fit.covariance = corrected_for_colour(fit, prior);
+  smoother->set_exact(false);
   fit.smoother = smoother;
   fit.converged = true;
   tell(1.0);

@@ -1,6 +1,7 @@
 // Parallel evaluation of the chain of chunks, and its states.
 #include "ident/estimators/flight_smoother.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -11,6 +12,18 @@ namespace ident {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+// The delay of rates and attitude is simulated, not linearised, up to the rows that a chunk sees beyond its
+// end.
+double sensor_delay_of(const std::vector<double>& p, double interval) {
+  static const int tau = find_parameter("sensor_delay.tau")->index;
+  constexpr double kRows = 50.0;
+  return std::clamp(p[static_cast<std::size_t>(tau)], 0.0, kRows * interval);
+}
+
+}  // namespace
 
 FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, NoiseModel noise,
                                double chunk_seconds, int threads)
@@ -70,7 +83,7 @@ ChunkTask FlightSmoother::task(std::size_t k, const VectorXd& u, const std::vect
   task.thetas = theta_->size();
   task.begin = place.begin, task.end = place.end, task.rows = arc.rows();
   task.t = arc.t.data(), task.y = arc.y.data(), task.q = arc.q.data();
-  task.shift = shift_;
+  task.shift = sensor_delay_of(p, record_->interval);
   task.huber = huber_;
   task.x0 = trial_[k];
   return task;

@@ -76,8 +76,6 @@ class FlightSmoother {
 
   /// Another noise model; the states stay.
   void set_noise(const NoiseModel& noise);
-  /// A delay of rates and attitude about which to linearise, s.
-  void set_shift(double shift) { shift_ = shift; }
   /// Slopes in double precision, for a fit to the last digit of exact data.
   void set_exact(bool exact) { exact_ = exact; }
   /// Residuals beyond this many standard deviations count linearly.
@@ -153,7 +151,7 @@ class FlightSmoother {
   NoiseModel noise_;
   double chunk_seconds_;
   int threads_;
-  double shift_ = 0.0, huber_ = 4.0;
+  double huber_ = 4.0;
   bool stands_ = false, exact_ = false;
   std::vector<ChunkPlace> places_;
   std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end

@@ -87,6 +87,19 @@ PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
   return terms;
 }
 
+bool Theta::possible(const Eigen::VectorXd& u) const {
+  const std::vector<double> p = this->p(u);
+  const auto at = [&](int i) { return p[static_cast<std::size_t>(i)]; };
+  MassSeam<double> mass{at(param::m), Mat3<double>::Zero(), Vec3<double>::Zero(), at(param::Jp)};
+  mass.J << at(param::Jxx), at(param::Jxy), at(param::Jxz), at(param::Jxy), at(param::Jyy), at(param::Jyz),
+      at(param::Jxz), at(param::Jyz), at(param::Jzz);
+  EffectSet<double>(p, active_effects(p)).apply(mass);
+  const Mat3<double>& J = mass.J;
+  const double minor = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
+  return J(0, 0) > 0 && minor > 0 &&
+         dot(Vec3<double>(J.row(0)), cross(Vec3<double>(J.row(1)), Vec3<double>(J.row(2)))) > 0;
+}
+
 double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p) {
   const auto at = [&](int i) { return p[static_cast<std::size_t>(i)]; };
   const double J = (at(param::Jxx) + at(param::Jyy)) / 2;

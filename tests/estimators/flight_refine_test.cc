@@ -1,0 +1,179 @@
+// Refinement finds the truth again: from exact logs, from the published flight, and with what sensors do to
+// it.
+#include "ident/estimators/flight_refine.h"
+
+#include <gtest/gtest.h>
+
+#include "ident/io/vehicle_file.h"
+#include "ident/model/simulate.h"
+
+namespace ident {
+namespace {
+
+const std::vector<std::string> kUnknown = {"kT", "kQ", "km", "omega_m", "zeta_m", "Jxx", "Jyy", "Jzz", "Jp"};
+
+Vehicle feasible() {
+  Vehicle v = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  v.command.reset();  // commands need not be whole microseconds
+  return v;
+}
+
+/// Constants 3 % off, known to 10 %.
+Vehicle as_measured(Vehicle v) {
+  double sign = 1.0;
+  for (const std::string& name : kUnknown) {
+    const double value = v.value(name);
+    v.parameters[name] = {value * (1 + 0.03 * sign), 0.1 * value};
+    sign = -sign;
+  }
+  return v;
+}
+
+std::vector<FlightLog> flights(const Vehicle& v, SimulationOptions options, int count = 1) {
+  std::vector<FlightLog> logs;
+  for (int i = 0; i < count; ++i) {
+    options.seed = static_cast<std::uint64_t>(i + 1);
+    logs.push_back(simulate_flight(v, options).log);
+  }
+  return logs;
+}
+
+void expect_found(const Result& result, const Vehicle& truth, double within) {
+  for (const std::string& name : kUnknown) {
+    const Parameter* p = result.find(name);
+    ASSERT_TRUE(p) << name;
+    EXPECT_TRUE(p->identifiable) << name;
+    EXPECT_NEAR(p->value / truth.value(name), 1.0, within) << name << " +- " << p->std;
+  }
+}
+
+void expect_within(const Result& result, const std::string& name, double truth, double stds) {
+  const Parameter* p = result.find(name);
+  ASSERT_TRUE(p) << name;
+  EXPECT_TRUE(p->identifiable) << name;
+  EXPECT_NEAR(p->value, truth, stds * p->std) << name;
+}
+
+TEST(FlightRefine, ExactLogsGiveTheConstantsBack) {
+  SimulationOptions options;
+  options.duration = 15.0;
+  options.noise = noise_level("none");
+  options.longest_step = 0.0;
+  const Vehicle truth = feasible();
+  expect_found(refine_flight(as_measured(truth), flights(truth, options), {.validate = false}), truth, 1e-8);
+}
+
+TEST(FlightRefine, ExactLogsOfAFinerIntegratorGiveTheConstantsBackButForTheStep) {
+  SimulationOptions options;
+  options.duration = 15.0;
+  options.noise = noise_level("none");
+  const Vehicle truth = feasible();
+  expect_found(refine_flight(as_measured(truth), flights(truth, options), {.validate = false}), truth, 1e-5);
+}
+
+TEST(FlightRefine, DeadTimeThatIsNoMultipleOfTheRowsLeavesNoBias) {
+  SimulationOptions options;
+  options.duration = 15.0;
+  options.noise = noise_level("none");
+  Vehicle truth = feasible();
+  truth.parameters["dead_time"] = {0.0053, {}};
+  Vehicle measured = as_measured(truth);
+  measured.parameters["dead_time"] = {0.005, 0.001};
+  const Result result = refine_flight(measured, flights(truth, options), {.validate = false});
+  expect_found(result, truth, 1e-4);
+  EXPECT_NEAR(result.find("dead_time")->value, 0.0053, 1e-6);
+}
+
+// [Phang] Figs. 7-8: 1 Hz sinusoids on opposing rotors.
+TEST(FlightRefine, ThePublishedVehicleIsFoundFromItsPublishedManoeuvre) {
+  SimulationOptions options;
+  options.duration = 30.0;
+  options.scenario = "phang";
+  const Vehicle truth = feasible();
+  const std::vector<FlightLog> logs = flights(truth, options);
+  const Result verified = verify_flight(truth, logs);
+  for (const char* channel : {"p", "q"}) {
+    EXPECT_GT(verified.fit["channels"][channel]["fit_percent"].get<double>(), 80.0) << channel;
+    EXPECT_LT(verified.fit["channels"][channel]["theil"].get<double>(), 0.15) << channel;
+  }
+  const Result result = refine_flight(as_measured(truth), logs, {.validate = false});
+  for (const char* name : {"kT", "km", "omega_m", "Jxx", "Jyy"})
+    expect_within(result, name, truth.value(name), 4.0);
+}
+
+TEST(FlightRefine, DelayOfTheSensorsIsFoundWithoutBias) {
+  SimulationOptions options;
+  options.duration = 30.0;
+  Vehicle truth = feasible();
+  truth.parameters["sensor_delay.tau"] = {0.005, {}};
+  const Result result = refine_flight(as_measured(feasible()), flights(truth, options),
+                                      {.free = {"sensor_delay.tau"}, .validate = false});
+  expect_within(result, "sensor_delay.tau", 0.005, 4.0);
+  EXPECT_NEAR(result.find("sensor_delay.tau")->value, 0.005, 3e-5);
+}
+
+TEST(FlightRefine, DelayOfTheCommandsIsFound) {
+  SimulationOptions options;
+  options.duration = 30.0;
+  Vehicle truth = feasible();
+  truth.parameters["motor_delay.tau"] = {0.008, {}};
+  const Result result = refine_flight(as_measured(feasible()), flights(truth, options),
+                                      {.free = {"motor_delay.tau"}, .validate = false});
+  expect_within(result, "motor_delay.tau", 0.008, 4.0);
+  EXPECT_NEAR(result.find("motor_delay.tau")->value, 0.008, 1e-4);
+}
+
+TEST(FlightRefine, PlaceAndBiasOfTheAccelerometerAreFound) {
+  SimulationOptions options;
+  options.duration = 40.0;
+  Vehicle truth = feasible();
+  const std::vector<std::pair<std::string, double>> hidden = {
+      {"imu_lever_arm.x", 0.03}, {"imu_lever_arm.y", -0.02}, {"imu_lever_arm.z", 0.015},
+      {"imu_bias.ax", 0.2},      {"imu_bias.ay", -0.15},     {"imu_bias.az", 0.1}};
+  RefineOptions refine{.validate = false};
+  for (const auto& [name, value] : hidden) truth.parameters[name] = {value, {}}, refine.free.push_back(name);
+  const Result result = refine_flight(as_measured(feasible()), flights(truth, options), refine);
+  for (const auto& [name, value] : hidden) expect_within(result, name, value, 4.0);
+  EXPECT_NEAR(result.find("imu_bias.ax")->value, 0.2, 0.01);
+  EXPECT_NEAR(result.find("imu_lever_arm.z")->value, 0.015, 0.003);
+}
+
+const std::vector<std::string> kProducts = {"Jxy", "Jxz", "Jyz"};
+
+TEST(FlightRefine, ProductsOfInertiaAreFound) {
+  SimulationOptions options;
+  options.duration = 40.0;
+  Vehicle truth = feasible();
+  truth.parameters["Jxy"] = {-2e-4, {}}, truth.parameters["Jxz"] = {1.5e-4, {}},
+  truth.parameters["Jyz"] = {-1e-4, {}};
+  const Result result =
+      refine_flight(as_measured(feasible()), flights(truth, options), {.free = kProducts, .validate = false});
+  for (const std::string& name : kProducts) expect_within(result, name, truth.value(name), 4.0);
+  EXPECT_NEAR(result.find("Jxy")->value, -2e-4, 1e-5);
+}
+
+// Priors far outside of what a body can have, and so sure of themselves that nothing else counts.
+TEST(FlightRefine, NoEstimateIsABodyThatCannotBe) {
+  SimulationOptions options;
+  options.duration = 6.0;
+  Vehicle stated = as_measured(feasible());
+  stated.parameters["Jxy"] = {0.0, {}};
+  const std::vector<FlightLog> logs = flights(feasible(), options);
+  std::vector<Warning> warnings;
+  const std::vector<double> p = starting_constants(stated, logs, warnings);
+  const FlightRecord record = make_flight_record(stated, p, logs);
+  std::vector<FreeConstant> constants = free_constants(stated, p, {"Jxy"});
+  const auto Jxy = std::ranges::find(constants, "Jxy", &FreeConstant::name);
+  Jxy->prior_value = 3 * stated.value("Jxx"), Jxy->prior_std = 1e-9;
+  const Theta theta(p, constants, 1, true);
+  const FlightFit fit = fit_flight(record, theta);
+  const std::vector<double> found = theta.p(fit.u);
+  EXPECT_TRUE(theta.possible(fit.u));
+  EXPECT_LT(std::pow(found[param::Jxy], 2), found[param::Jxx] * found[param::Jyy]);
+  Eigen::VectorXd beyond = Eigen::VectorXd::Zero(theta.size());
+  beyond[Jxy - constants.begin()] = 2 * stated.value("Jxx") / Jxy->scale;
+  EXPECT_FALSE(theta.possible(beyond));
+}
+
+}  // namespace
+}  // namespace ident
