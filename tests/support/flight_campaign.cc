@@ -94,14 +94,16 @@ NoiseModel true_noise(const Case& c, const FlightRecord& record) {
     noise.sigma[kGyro + k] = sensor.gyro, noise.sigma[kForce + k] = sensor.accelerometer;
     noise.sigma[kAttitude + k] = sensor.attitude, noise.sigma[kVelocity + k] = sensor.velocity;
     noise.sigma[kPosition + k] = sensor.position;
-    noise.v_dot[k] = {kPush * c.gusts, kGustTime};
   }
   for (std::size_t n = kRotorChannel; n < kChannels; ++n)
     noise.sigma[n] = c.rotor_speeds ? sensor.rotor_speed * hover_speed(c.truth) : 1.0;
   const double moment = kTurn * c.truth.value("m") * c.gusts;
-  noise.w_dot = {{{moment / c.truth.value("Jxx"), kGustTime},
-                  {moment / c.truth.value("Jyy"), kGustTime},
-                  {moment / c.truth.value("Jzz"), kGustTime}}};
+  AirNoise air;
+  air.v_dot.fill({kPush * c.gusts, kGustTime});
+  air.w_dot = {{{moment / c.truth.value("Jxx"), kGustTime},
+                {moment / c.truth.value("Jyy"), kGustTime},
+                {moment / c.truth.value("Jzz"), kGustTime}}};
+  noise.air.assign(static_cast<std::size_t>(record.logs), air);
   return noise;
 }
 
