@@ -73,7 +73,7 @@ double FlightSmoother::retune(int rounds) {
       std::array<ProcessMoments, 3> turn, push;
     };
     std::vector<LogMoments> logs(noise_.air.size());
-    double motors = 0, motors_determined = 0, links = 0;
+    double motors = 0, motor_seconds = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
       const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
@@ -88,12 +88,12 @@ double FlightSmoother::retune(int rounds) {
       add(log.turn, layout.w_dot), add(log.push, layout.v_dot);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
       const auto E = chunk::E(results_[k], n);
-      const VectorXd d = defect(k), W = link_weight(k);
+      const VectorXd d = defect(k);
       for (int r = layout.motors; r < layout.motors + layout.rotors; ++r) {
         const VectorXd e = E.row(r).head(n).transpose();
         const double left = d[r] + e.dot(dx[k]) + E.row(r).tail(theta_->size()).dot(du) - dx[k + 1][r];
         const double V = e.dot(el.P[k] * e) - 2 * e.dot(el.cross[k].col(r)) + el.P[k + 1](r, r);
-        motors += W[r] * left * left, motors_determined += 1 - W[r] * V, links += 1;
+        motors += left * left + V, motor_seconds += h;
       }
     }
     change = 0;
@@ -101,11 +101,10 @@ double FlightSmoother::retune(int rounds) {
       for (std::size_t i = 0; i < 3; ++i)
         change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i]),
                            logs[log].push[i].update(noise_.air[log].v_dot[i])});
-    if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
-      const double determined = std::max(motors_determined, 0.01 * links);
-      const double ratio = std::clamp(motors / determined, 0.02, 50.0);
-      noise_.q_motor = std::max(noise_.q_motor * ratio, 1e-9);
-      change = std::max(change, std::abs(std::sqrt(ratio) - 1));
+    if (motor_seconds > 0) {
+      const double ratio = motors / motor_seconds / noise_.q_motor;
+      noise_.q_motor = std::max(noise_.q_motor * std::clamp(std::pow(ratio, 1.8), 0.02, 50.0), 1e-9);
+      change = std::max(change, 0.5 * std::abs(ratio - 1));
     }
     if (change < 0.01) break;
   }
