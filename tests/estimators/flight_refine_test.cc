@@ -152,27 +152,20 @@ TEST(FlightRefine, ProductsOfInertiaAreFound) {
   EXPECT_NEAR(result.find("Jxy")->value, -2e-4, 1e-5);
 }
 
-// Priors far outside of what a body can have, and so sure of themselves that nothing else counts.
-TEST(FlightRefine, NoEstimateIsABodyThatCannotBe) {
-  SimulationOptions options;
-  options.duration = 6.0;
-  Vehicle stated = as_measured(feasible());
-  stated.parameters["Jxy"] = {0.0, {}};
-  const std::vector<FlightLog> logs = flights(feasible(), options);
-  std::vector<Warning> warnings;
-  const std::vector<double> p = starting_constants(stated, logs, warnings);
-  const FlightRecord record = make_flight_record(stated, p, logs);
-  std::vector<FreeConstant> constants = free_constants(stated, p, {"Jxy"});
-  const auto Jxy = std::ranges::find(constants, "Jxy", &FreeConstant::name);
-  Jxy->prior_value = 3 * stated.value("Jxx"), Jxy->prior_std = 1e-9;
-  const Theta theta(p, constants, 1, true);
-  const FlightFit fit = fit_flight(record, theta);
-  const std::vector<double> found = theta.p(fit.u);
-  EXPECT_TRUE(theta.possible(fit.u));
-  EXPECT_LT(std::pow(found[param::Jxy], 2), found[param::Jxx] * found[param::Jyy]);
-  Eigen::VectorXd beyond = Eigen::VectorXd::Zero(theta.size());
-  beyond[Jxy - constants.begin()] = 2 * stated.value("Jxx") / Jxy->scale;
-  EXPECT_FALSE(theta.possible(beyond));
+TEST(Theta, AnInertiaThatIsNotPositiveDefiniteIsNotPossible) {
+  const Vehicle v = feasible();
+  const std::vector<double> p = parameter_vector(v);
+  const Theta theta(p, free_constants(v, p, {"Jxy"}), 1, true);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+  EXPECT_TRUE(theta.possible(u));
+  const int last = theta.constants_count() - 1;
+  const double border = std::sqrt(v.value("Jxx") * v.value("Jyy")) / theta.slope(u, last);
+  for (const double sign : {-1.0, 1.0}) {
+    u[last] = sign * 0.99 * border;
+    EXPECT_TRUE(theta.possible(u));
+    u[last] = sign * 1.01 * border;
+    EXPECT_FALSE(theta.possible(u));
+  }
 }
 
 }  // namespace
