@@ -139,6 +139,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
     double& gain = rival.gain[static_cast<std::size_t>(channel)];
     gain = -1e300;
     for (const double size : kSizes) gain = std::max(gain, held_out_gain(blocks, prior, size));
+    if (gain == -1e300) gain = 0;  // nothing that can be judged
   }
   return rival;
 }

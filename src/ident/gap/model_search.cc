@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "ident/core/error.h"
+
 namespace ident {
 namespace {
 
@@ -156,7 +158,13 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
                                options.exclude);
     return linearise_everything(record, model.fit, *model.theta, problem);
   };
+  const auto stands = [](const FittedModel& model) {
+    return model.fit.covariance.allFinite() && model.fit.information.allFinite();
+  };
+  if (!stands(out.base))
+    throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
   std::vector<Candidate> tried;  // and found no better where they act
+  std::vector<Candidate> fell;   // whose fit ran away
   for (int step = 0;; ++step) {
     tell(0.2 + 0.2 * step, "every cause");
     out.form = everything_at(out.best, out.problem);
@@ -167,13 +175,13 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     Further uneven;  // gains most, but a size that seems to change from block to block
     for (int c = 0; c < static_cast<int>(out.problem.candidates.size()); ++c) {
       if (std::ranges::find(have, c) != have.end()) continue;
+      const Candidate& cause = out.problem.candidates[static_cast<std::size_t>(c)];
+      const auto is_it = [&](const Candidate& t) { return same(t, cause); };
+      if (std::ranges::any_of(fell, is_it)) continue;
       double degrees = 0;
       const Further f = further(out.form, out.problem, have, c, degrees);
       if (f.passes(degrees)) passed.push_back(f);
-      const Candidate& cause = out.problem.candidates[static_cast<std::size_t>(c)];
-      if (f.possible && f.gain > uneven.gain &&
-          std::ranges::none_of(tried, [&](const Candidate& t) { return same(t, cause); }))
-        uneven = f;
+      if (f.possible && f.gain > uneven.gain && std::ranges::none_of(tried, is_it)) uneven = f;
     }
     Further best;
     if (!passed.empty()) {
@@ -187,6 +195,11 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       const Candidate cause = out.problem.candidates[static_cast<std::size_t>(uneven.candidate)];
       tell(0.25 + 0.2 * step, described(cause));
       FittedModel trial = with_cause(record, vehicle, out, have, uneven.candidate, fit);
+      if (!stands(trial)) {
+        fell.push_back(cause);
+        --step;
+        continue;
+      }
       ExtendedProblem problem;
       const QuadraticForm form = everything_at(trial, problem);
       std::vector<int> others = places_of(trial.adopted, problem);
@@ -209,9 +222,15 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best.candidate)];
     tell(0.3 + 0.2 * step, described(chosen));
     FittedModel next = with_cause(record, vehicle, out, have, best.candidate, fit);
+    if (!stands(next)) {
+      fell.push_back(chosen);
+      --step;
+      continue;
+    }
     out.steps.push_back({described(chosen), best.honest()});
     out.best = std::move(next);
   }
+  for (const Candidate& c : fell) out.ran_away.push_back(described(c));
   // Weigh sets of at most two causes (and the one found) at the model and noise found.
   const int n = static_cast<int>(out.problem.candidates.size());
   std::vector<std::vector<int>> sets{{}};

@@ -36,6 +36,8 @@ struct SearchResult {
   QuadraticForm base_form;
   std::vector<WeighedSet> sets;  ///< most probable first
   std::vector<SearchStep> steps;
+  std::vector<std::string>
+      ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 
   double probability_of(const std::string& name) const;
   /// Scatter of an adopted cause's value over blocks of flight, in units of what noise makes: 1 for a true

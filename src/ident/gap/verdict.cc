@@ -37,6 +37,15 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps) {
   Judged out;
   out.effects = names_of(search.best.adopted);
+  if (!search.ran_away.empty()) {
+    out.status = "unknown";
+    out.confused_with = search.ran_away;
+    out.effects.clear();
+    out.sentence =
+        fmt::format("A gap is there that looks like {}, but no full model with that flies as these logs do.",
+                    fmt::join(search.ran_away, " or "));
+    return out;
+  }
   double found = 0;
   for (const SearchStep& step : search.steps) found += step.gain;
   if (out.effects.empty()) {
