@@ -136,6 +136,8 @@ void fit_line(Signature& s) {
       y(s.y.data(), static_cast<Index>(s.y.size()));
   if (x.size() < 3 || !(x.squaredNorm() > 0)) return;
   s.slope = x.dot(y) / x.squaredNorm();
+  s.slope_std =
+      std::sqrt((y - s.slope * x).squaredNorm() / (static_cast<double>(x.size() - 1) * x.squaredNorm()));
   const VectorXd dx = x.array() - x.mean(), dy = y.array() - y.mean();
   s.correlation = dx.dot(dy) / std::max(std::sqrt(dx.squaredNorm() * dy.squaredNorm()), 1e-300);
 }

@@ -17,7 +17,8 @@ struct Signature {
   std::string parameter, parameter_unit;  ///< empty with several parameters
   std::vector<double> x, y;
   double found = 1.0, found_std = kNaN;  ///< slope by the diagnosis
-  double slope = kNaN;                   ///< least squares through the origin
+  double slope = kNaN,
+         slope_std = kNaN;  ///< least squares through the origin, and as scattered as the points
   double correlation = kNaN;
   double noise = 0.0;  ///< standard deviation of a point for a perfect model
 };

@@ -24,9 +24,9 @@ std::string caption_of(const Signature& s) {
   const std::string tightness = fmt::format("correlation {:.3f}", s.correlation);
   if (s.parameter.empty())
     return fmt::format("A line through these points has the slope {}, where 1 is the size found; {}.",
-                       format_number(s.slope, 3), tightness);
-  return fmt::format("A line through these points gives {} {}, the fit to all data {}; {}.",
-                     format_number(s.slope, 3), s.parameter_unit == "-" ? "" : s.parameter_unit,
+                       format_with_uncertainty(s.slope, s.slope_std), tightness);
+  return fmt::format("A line through these points gives {}, the fit to all data {}; {}.",
+                     with_unit(s.slope, s.slope_std, s.parameter_unit),
                      with_unit(s.found, s.found_std, s.parameter_unit), tightness);
 }
 

@@ -159,6 +159,10 @@ std::vector<Findings> findings_by_kind(const Result& result) {
   return kinds;
 }
 
+bool follows_correlation(const Section& section) {
+  return section.title.starts_with("Profile likelihood") || section.title.starts_with("Held-out");
+}
+
 std::vector<Section> sections_in_order(const Result& result) {
   std::vector<Section> health, rest;
   for (const Section& section : result.sections) (is_data_health(section) ? health : rest).push_back(section);

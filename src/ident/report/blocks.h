@@ -19,6 +19,9 @@ Table parameter_table(const Result& result);
 /// then what the command has to show, which comes first in a diagnosis.
 std::vector<Section> sections_in_order(const Result& result);
 
+/// Profiles and held-out flight are read after the correlation matrix, which explains them.
+bool follows_correlation(const Section& section);
+
 /// Findings of one kind together, in the order in which the kinds appear.
 struct Findings {
   std::string code;

@@ -108,12 +108,19 @@ void Page::chapter(const Result& result, int level) {
   if (!is_diagnosis(result)) parameters(result, level + 1);
   heading(level + 1, "Checks and warnings");
   add(warnings_of(result));
-  for (const Section& part : sections_in_order(result)) section(part, level + 1);
-  if (is_diagnosis(result)) parameters(result, level + 1);
-  if (result.correlation.size() > 0) {
+  bool open = result.correlation.size() > 0;
+  const auto correlation = [&] {
+    if (!open) return;
+    open = false;
     heading(level + 1, "Correlation");
     figure(correlation_plot(result), "");
+  };
+  for (const Section& part : sections_in_order(result)) {
+    if (follows_correlation(part)) correlation();
+    section(part, level + 1);
   }
+  if (is_diagnosis(result)) parameters(result, level + 1);
+  correlation();
   heading(level + 1, "Provenance");
   add(verbatim_table(provenance_table(result)));
 }

@@ -108,12 +108,19 @@ void MarkdownWriter::chapter(const Result& result, int level) {
     for (const std::string& message : kind.messages)
       text_ += "* **" + escape_markdown(kind.code) + "**: " + escape_markdown(message) + "\n";
   text_ += result.warnings.empty() ? "No warnings.\n\n" : "\n";
-  for (const Section& part : sections_in_order(result)) section(part, result.command, level + 1);
-  if (is_diagnosis(result)) parameters(result, level + 1);
-  if (result.correlation.size() > 0) {
+  bool open = result.correlation.size() > 0;
+  const auto correlation = [&] {
+    if (!open) return;
+    open = false;
     heading(level + 1, "Correlation");
     text_ += table_of(correlation_table(result));
+  };
+  for (const Section& part : sections_in_order(result)) {
+    if (follows_correlation(part)) correlation();
+    section(part, result.command, level + 1);
   }
+  if (is_diagnosis(result)) parameters(result, level + 1);
+  correlation();
   heading(level + 1, "Provenance");
   text_ += table_of(provenance_table(result));
 }
