@@ -165,10 +165,19 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
   std::vector<Candidate> tried;  // and found no better where they act
   std::vector<Candidate> fell;   // whose fit ran away
-  for (int step = 0;; ++step) {
-    tell(0.2 + 0.2 * step, "every cause");
-    out.form = everything_at(out.best, out.problem);
-    if (step == 0) out.base_problem = out.problem, out.base_form = out.form;
+  const auto runs_away = [&](const FittedModel& model, const Candidate& cause) {
+    if (stands(model)) return false;
+    fell.push_back(cause);
+    return true;
+  };
+  for (bool moved = true;;) {
+    const auto step = static_cast<int>(out.steps.size());
+    if (moved) {
+      tell(0.2 + 0.2 * step, "every cause");
+      out.form = everything_at(out.best, out.problem);
+      if (step == 0) out.base_problem = out.problem, out.base_form = out.form;
+      moved = false;
+    }
     if (step >= options.most_causes) break;
     const std::vector<int> have = places_of(out.best.adopted, out.problem);
     std::vector<Further> passed;
@@ -195,11 +204,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       const Candidate cause = out.problem.candidates[static_cast<std::size_t>(uneven.candidate)];
       tell(0.25 + 0.2 * step, described(cause));
       FittedModel trial = with_cause(record, vehicle, out, have, uneven.candidate, fit);
-      if (!stands(trial)) {
-        fell.push_back(cause);
-        --step;
-        continue;
-      }
+      if (runs_away(trial, cause)) continue;
       ExtendedProblem problem;
       const QuadraticForm form = everything_at(trial, problem);
       std::vector<int> others = places_of(trial.adopted, problem);
@@ -213,6 +218,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
         if (there.passes(degrees) && there.honest() > best.honest()) {
           out.steps.push_back({described(cause), there.honest()});
           out.best = std::move(trial);
+          moved = true;
           continue;
         }
       }
@@ -222,15 +228,18 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best.candidate)];
     tell(0.3 + 0.2 * step, described(chosen));
     FittedModel next = with_cause(record, vehicle, out, have, best.candidate, fit);
-    if (!stands(next)) {
-      fell.push_back(chosen);
-      --step;
-      continue;
-    }
+    if (runs_away(next, chosen)) continue;
     out.steps.push_back({described(chosen), best.honest()});
     out.best = std::move(next);
+    moved = true;
   }
-  for (const Candidate& c : fell) out.ran_away.push_back(described(c));
+  // Those that still gain beside what was found.
+  const std::vector<int> have = places_of(out.best.adopted, out.problem);
+  for (const int c : places_of(fell, out.problem)) {
+    double degrees = 0;
+    if (further(out.form, out.problem, have, c, degrees).passes(degrees))
+      out.ran_away.push_back(described(out.problem.candidates[static_cast<std::size_t>(c)]));
+  }
   // Weigh sets of at most two causes (and the one found) at the model and noise found.
   const int n = static_cast<int>(out.problem.candidates.size());
   std::vector<std::vector<int>> sets{{}};
