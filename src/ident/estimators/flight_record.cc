@@ -1,11 +1,10 @@
 // Cuts logs into arcs, numbers the channels and reads first states and noise levels off the data.
-#include "ident/estimators/flight_record.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "ident/core/error.h"
+#include "ident/estimators/flight_record_start.h"
 
 namespace ident {
 namespace {
@@ -114,28 +113,6 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, co
   return out;
 }
 
-double filled(const std::vector<double>& column, std::size_t i, double otherwise) {
-  return column.empty() || !std::isfinite(column[i]) ? otherwise : column[i];
-}
-
-// The column with gaps interpolated linearly; empty when nothing was sampled.
-std::vector<double> interpolated(const std::vector<double>& t, const std::vector<double>& column) {
-  std::vector<double> out = column;
-  std::size_t last = column.size();
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    if (!std::isfinite(column[i])) continue;
-    for (std::size_t k = last == column.size() ? 0 : last + 1; k < i; ++k) {
-      out[k] = last == column.size()
-                   ? column[i]
-                   : column[last] + (t[k] - t[last]) / (t[i] - t[last]) * (column[i] - column[last]);
-    }
-    last = i;
-  }
-  if (last == column.size()) return {};
-  for (std::size_t k = last + 1; k < column.size(); ++k) out[k] = column[last];
-  return out;
-}
-
 FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::size_t end,
                    const Vehicle& vehicle, double v0) {
   FlightArc arc;
@@ -184,120 +161,6 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
   }
   arc.inputs = std::make_shared<const FlightInputs>(std::move(inputs));
   return arc;
-}
-
-// White noise by second differences of consecutive samples, robust against jumps.
-double noise_by_differences(const FlightRecord& record, int channel) {
-  std::vector<double> size;
-  for (const FlightArc& arc : record.arcs) {
-    double a = kNaN, b = kNaN;
-    for (std::size_t i = 0; i < arc.rows(); ++i) {
-      const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-      if (!std::isfinite(y)) continue;
-      if (std::isfinite(a)) size.push_back(std::abs(y - 2 * b + a));
-      a = b, b = y;
-    }
-  }
-  return size.empty() ? kNaN : 1.4826 * median(size) / std::sqrt(6.0);
-}
-
-double attitude_noise(const FlightRecord& record, int axis) {
-  std::vector<double> size;
-  for (const FlightArc& arc : record.arcs) {
-    Eigen::Vector4d q1, q2;
-    int have = 0;
-    double turn1 = 0;
-    for (std::size_t i = 0; i < arc.rows(); ++i) {
-      if (!std::isfinite(arc.y[i * kChannels + kAttitude])) continue;
-      const Eigen::Vector4d q(arc.q[4 * i], arc.q[4 * i + 1], arc.q[4 * i + 2], arc.q[4 * i + 3]);
-      if (have > 0) {
-        const Vec4<double> d = quaternion_product(conjugate(q1), q);
-        const double turn = 2 * d[1 + axis] * (d[0] < 0 ? -1 : 1);
-        if (have > 1) size.push_back(std::abs(turn - turn1));
-        turn1 = turn;
-      }
-      q1 = q;
-      ++have;
-    }
-  }
-  return size.empty() ? kNaN : 1.4826 * median(size) / std::sqrt(6.0);
-}
-
-void set_noise(FlightRecord& record) {
-  for (int c = 0; c < kChannels; ++c) {
-    const bool turn = c >= kAttitude && c < kAttitude + 3;
-    const double s = turn ? attitude_noise(record, c - kAttitude) : noise_by_differences(record, c);
-    record.sigma[static_cast<std::size_t>(c)] = std::isfinite(s) ? std::max(s, 1e-9) : 1.0;
-  }
-  // One level for the axes of a sensor: a quiet axis must not be trusted beyond its sensor.
-  for (const int group : {int{kGyro}, int{kForce}, int{kAttitude}, int{kVelocity}, int{kPosition}}) {
-    const auto g = static_cast<std::size_t>(group);
-    const double top = std::max({record.sigma[g], record.sigma[g + 1], record.sigma[g + 2]});
-    for (std::size_t k = 0; k < 3; ++k) record.sigma[g + k] = std::max(record.sigma[g + k], 0.2 * top);
-  }
-}
-
-// Motor states by simulating the commands; measured speeds replace the simulated ones.
-void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
-  const EffectSet<double> effects(p, active_effects(p));
-  Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
-  const std::size_t rotors = vehicle.rotors.size();
-  std::array<MotorState<double>, kMaxRotors> motors{};
-  for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
-  for (std::size_t i = 0; i < arc.rows(); ++i) {
-    for (std::size_t n = 0; n < rotors; ++n) {
-      const double y = arc.y[i * kChannels + kRotorChannel + n];
-      if (std::isfinite(y) && y > 0) motors[n].Omega += 0.5 * (y - motors[n].Omega);
-    }
-    arc.start[i].motors = motors;
-    if (i + 1 < arc.rows()) flight.advance(motors, arc.t[i], arc.t[i + 1] - arc.t[i]);
-  }
-}
-
-void set_start(FlightRecord& record, std::span<const double> p) {
-  for (FlightArc& arc : record.arcs) {
-    const std::size_t rows = arc.rows();
-    arc.start.resize(rows);
-    const auto column = [&](int channel) {
-      std::vector<double> c(rows);
-      for (std::size_t i = 0; i < rows; ++i) c[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-      return interpolated(arc.t, c);
-    };
-    std::array<std::vector<double>, 3> w, v, x;
-    std::array<std::vector<double>, 4> q;
-    for (int k = 0; k < 3; ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      w[c] = column(kGyro + k), v[c] = column(kVelocity + k), x[c] = column(kPosition + k);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::vector<double> c(rows);
-      for (std::size_t i = 0; i < rows; ++i) c[i] = arc.q[4 * i + k];
-      q[k] = interpolated(arc.t, c);
-    }
-    for (std::size_t i = 0; i < rows; ++i) {
-      BodyState<double>& b = arc.start[i].body;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = static_cast<Eigen::Index>(k);
-        b.w_B[at] = filled(w[k], i, 0.0);
-        b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
-        b.v_W[at] = filled(v[k], i, 0.0);
-        if (v[k].empty() && !x[k].empty()) {
-          const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
-          b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
-        }
-      }
-      for (std::size_t k = 0; k < 4; ++k)
-        b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
-      b.q_WB.normalize();
-      if (w[0].empty() && !q[0].empty() && i + 1 < rows) {
-        const Vec4<double> a(q[0][i], q[1][i], q[2][i], q[3][i]),
-            e(q[0][i + 1], q[1][i + 1], q[2][i + 1], q[3][i + 1]);
-        const Vec4<double> d = quaternion_product(conjugate(a), e);
-        for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
-      }
-    }
-    if (arc.inputs->commanded()) set_motor_start(arc, *record.vehicle, p);
-  }
 }
 
 }  // namespace

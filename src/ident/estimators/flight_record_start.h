@@ -1,0 +1,17 @@
+// What a record starts from: noise levels and states read off the measurements.
+#pragma once
+
+#include "ident/estimators/flight_record.h"
+
+namespace ident {
+
+/// The column with gaps interpolated linearly; empty when nothing was sampled.
+std::vector<double> interpolated(const std::vector<double>& t, const std::vector<double>& column);
+
+/// White noise of every channel from differences of its samples.
+void set_noise(FlightRecord& record);
+
+/// States of all rows as measured, motors simulated with the constants `p`.
+void set_start(FlightRecord& record, std::span<const double> p);
+
+}  // namespace ident
