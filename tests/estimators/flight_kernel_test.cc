@@ -67,7 +67,8 @@ struct Setting {
     weight.fill(10.0);
     const FlightArc& arc = record.arcs[0];
     ChunkTask t;
-    t.vehicle = &vehicle, t.inputs = arc.inputs.get(), t.layout = record.layout, t.p = constants, t.seeds = seeds;
+    t.vehicle = &vehicle, t.inputs = arc.inputs.get(), t.layout = record.layout, t.p = constants,
+    t.seeds = seeds;
     t.gyro_bias = theta.gyro_bias(at, 0);
     t.thetas = theta.size(), t.begin = 10, t.end = 120, t.rows = arc.rows();
     t.t = arc.t.data(), t.y = arc.y.data(), t.q = arc.q.data(), t.weight = weight.data();
@@ -156,6 +157,81 @@ TEST(FlightKernel, GradientIsThatOfTheCost) {
     const double numeric = (up.cost - down.cost) / (2 * h),
                  analytic = 2 * exact.g[static_cast<std::size_t>(s.record.layout.size + i)];
     EXPECT_NEAR(analytic, numeric, 1e-4 * std::abs(numeric) + 1e-5) << s.theta.name(i);
+  }
+}
+
+// The state moved by d in one local direction; an attitude turns about the body's axis k.
+FlightState<double> moved(FlightState<double> x, const StateLayout& layout, int i, double d) {
+  const auto within = [&](int at, int size) { return at >= 0 && i >= at && i < at + size; };
+  if (within(layout.w, 3)) x.body.w_B[i - layout.w] += d;
+  if (within(layout.v, 3)) x.body.v_W[i - layout.v] += d;
+  if (within(layout.x, 3)) x.body.x_W[i - layout.x] += d;
+  if (within(layout.w_dot, 3)) x.outside.w_dot_B[i - layout.w_dot] += d;
+  if (within(layout.v_dot, 3)) x.outside.v_dot_W[i - layout.v_dot] += d;
+  if (within(layout.motors, 2 * layout.rotors)) {
+    const int n = i - layout.motors;
+    auto& motor = x.motors[static_cast<std::size_t>(n % layout.rotors)];
+    (n < layout.rotors ? motor.Omega : motor.Omega_dot) += d;
+  }
+  if (within(layout.attitude, 3)) {
+    Vec4<double> turn(std::cos(d / 2), 0, 0, 0);
+    turn[1 + i - layout.attitude] = std::sin(d / 2);
+    x.body.q_WB = quaternion_product(x.body.q_WB, turn);
+  }
+  return x;
+}
+
+// Where b stands seen from a, in the local directions.
+Eigen::VectorXd apart(const FlightState<double>& a, const FlightState<double>& b, const StateLayout& layout) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(layout.size);
+  const auto put = [&](int at, const Vec3<double>& v) {
+    if (at >= 0) d.segment<3>(at) = v;
+  };
+  put(layout.w, b.body.w_B - a.body.w_B);
+  put(layout.v, b.body.v_W - a.body.v_W);
+  put(layout.x, b.body.x_W - a.body.x_W);
+  put(layout.w_dot, b.outside.w_dot_B - a.outside.w_dot_B);
+  put(layout.v_dot, b.outside.v_dot_W - a.outside.v_dot_W);
+  const Vec4<double>& q = a.body.q_WB;
+  put(layout.attitude,
+      2 * quaternion_product(Vec4<double>(q[0], -q[1], -q[2], -q[3]), b.body.q_WB).tail<3>());
+  for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
+    const auto m = static_cast<std::size_t>(n);
+    d[layout.motors + n] = b.motors[m].Omega - a.motors[m].Omega;
+    d[layout.motors + layout.rotors + n] = b.motors[m].Omega_dot - a.motors[m].Omega_dot;
+  }
+  return d;
+}
+
+// Every direction of the start: what it does to the cost and to the end, against central differences.
+TEST(FlightKernel, SlopesOfTheStartAreThoseOfCostAndEnd) {
+  Setting s;
+  std::vector<double> constants;
+  ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants);
+  task.exact = true;
+  task.x0.body.q_WB = Vec4<double>(0.9, 0.2, -0.3, 0.25).normalized();  // no axis is like another
+  const FlightState<double> start = task.x0;
+  const StateLayout& layout = task.layout;
+  ASSERT_GE(layout.attitude, 0);
+  ASSERT_GE(layout.motors, 0);
+  ASSERT_GE(layout.v_dot, 0);
+  ChunkResult exact, up, down;
+  ASSERT_TRUE(evaluate_chunk_with("baseline", task, exact));
+  const int columns = layout.size + task.thetas;
+  for (int i = 0; i < layout.size; ++i) {
+    const double h = 1e-5;
+    task.x0 = moved(start, layout, i, h);
+    evaluate_chunk_with("baseline", task, up);
+    task.x0 = moved(start, layout, i, -h);
+    evaluate_chunk_with("baseline", task, down);
+    const double numeric = (up.cost - down.cost) / (2 * h),
+                 analytic = 2 * exact.g[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(analytic, numeric, 1e-5 * std::abs(numeric) + 1e-3) << "cost, direction " << i;
+    const Eigen::VectorXd end =
+        (apart(exact.x_end, up.x_end, layout) - apart(exact.x_end, down.x_end, layout)) / (2 * h);
+    for (int k = 0; k < layout.size; ++k)
+      EXPECT_NEAR(exact.E[static_cast<std::size_t>(k * columns + i)], end[k], 1e-5 * (1 + end.norm()))
+          << "end " << k << ", direction " << i;
   }
 }
 

@@ -5,18 +5,12 @@
 
 #include "ident/core/error.h"
 #include "ident/estimators/flight_record_start.h"
+#include "ident/estimators/statistics.h"
 
 namespace ident {
 namespace {
 
 constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
-
-double median(std::vector<double> v) {
-  if (v.empty()) return kNaN;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 Signals signals_of(std::span<const FlightLog> logs) {
   Signals s;
