@@ -168,5 +168,23 @@ TEST(Theta, AnInertiaThatIsNotPositiveDefiniteIsNotPossible) {
   }
 }
 
+// What the motors do in the first moments, and just after a gap, was commanded before: it is not in the log.
+// Such rows once pulled the motor constants of a drawn vehicle four standard deviations away.
+TEST(FlightRefine, RowsWhoseCommandsAreUnknownAreLeftOut) {
+  Vehicle vehicle = feasible();
+  vehicle.parameters["dead_time"] = {0.012, {}};
+  SimulationOptions options;
+  options.duration = 4.0;
+  FlightLog log = flights(vehicle, options).front();
+  log.windows = {{0.0, 1.0}, {1.5, 9.0}};
+  const double resumes = log.t[500] + 0.5;  // half a second is missing
+  for (std::size_t i = 500; i < log.rows(); ++i) log.t[i] += 0.5;
+  const FlightRecord record = make_flight_record(vehicle, parameter_vector(vehicle), {&log, 1});
+  ASSERT_EQ(record.arcs.size(), 3U);
+  EXPECT_NEAR(record.arcs[0].t.front(), 0.062, 0.006);
+  EXPECT_NEAR(record.arcs[1].t.front(), 1.5, 0.006);  // a window: what was commanded before it is in the log
+  EXPECT_NEAR(record.arcs[2].t.front(), resumes + 0.062, 0.006);
+}
+
 }  // namespace
 }  // namespace ident

@@ -148,15 +148,15 @@ double update_noise(FlightSmoother& smoother, int rounds) {
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise) {
   // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
-  // the velocity by h/4 of that: this may reach half the noise of one sample.
+  // the velocity by h/4 of that. All rows of the chunk share this error, so it may reach a quarter of the
+  // noise of their mean: else what the gusts hide would pass for known.
   double h = 0.25;
   const auto shorten = [&](std::size_t channel, const std::array<ColouredNoise, 3>& process) {
     for (std::size_t i = 0; i < 3; ++i) {
       const bool measured = record.sigma[channel + i] != 1.0;
       if (measured && process[i].sigma > 0)
-        h = std::min(h,
-                     std::pow(2 * noise.sigma[channel + i] * std::sqrt(process[i].tau / 2) / process[i].sigma,
-                              2.0 / 3.0));
+        h = std::min(h, std::sqrt(noise.sigma[channel + i] * std::sqrt(record.interval * process[i].tau / 2) /
+                                  process[i].sigma));
     }
   };
   for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
@@ -233,7 +233,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       smoother->settle(u, 1);
     }
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
-    if (change < 0.03) break;
+    if (change < 0.03 || (round >= 5 && change < 0.3)) break;
     smoother->accept();
     const Newton step = newton_step(smoother->reduced(), theta, u);
     if (step.fall < kNear && theta.possible(u + step.du))

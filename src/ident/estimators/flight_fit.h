@@ -13,7 +13,7 @@ struct FlightFitOptions {
   double chunk_seconds = 0.0;  ///< 0: chosen from the noise that is found
   bool estimate_noise = true;
   std::optional<NoiseModel> noise;  ///< to start from
-  int noise_rounds = 6;
+  int noise_rounds = 10;
   bool robust = true;          ///< count gross errors linearly
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step

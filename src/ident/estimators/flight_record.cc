@@ -11,6 +11,7 @@ namespace ident {
 namespace {
 
 constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
+constexpr double kHistory = 0.05;  ///< s of commands beyond the stated dead time that a flight starts with
 
 Signals signals_of(std::span<const FlightLog> logs) {
   Signals s;
@@ -86,9 +87,15 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
   return fly;
 }
 
-// Rows that hold nothing but time end an arc when they last; so do jumps of time.
-std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, const std::vector<bool>& fly,
-                                                        double gap) {
+// Rows that hold nothing but time end an arc when they last; so do jumps of time. What the motors do in the
+// first `history` seconds after a jump, or after the log's start, was commanded before and is not in the log.
+std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, std::vector<bool> fly,
+                                                        double gap, double history) {
+  double known_from = log.t.front() + history;
+  for (std::size_t i = 0; i < log.rows() && history > 0; ++i) {
+    if (i > 0 && log.t[i] - log.t[i - 1] > gap) known_from = log.t[i] + history;
+    if (log.t[i] < known_from) fly[i] = false;
+  }
   std::vector<std::pair<std::size_t, std::size_t>> out;
   std::size_t begin = 0;
   bool open = false;
@@ -180,7 +187,8 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
         if (std::isfinite(v)) v0 = std::max(v0, v);
     }
     const std::vector<bool> fly = in_flight(log, record.warnings);
-    for (const auto& [begin, end] : pieces(log, fly, options.longest_gap))
+    const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
+    for (const auto& [begin, end] : pieces(log, fly, options.longest_gap, history))
       record.arcs.push_back(make_arc(log, static_cast<int>(n), begin, end, vehicle, v0));
   }
   std::vector<double> intervals;

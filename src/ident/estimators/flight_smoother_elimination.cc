@@ -22,6 +22,10 @@ double length(const FlightRecord& record, const ChunkPlace& place) {
 // Far below what one chunk tells of an acceleration from outside: no noise means none.
 constexpr double kLeastOutside = 1e-10;
 
+// The motors' noise reaches zero. At the floor of the other states single precision would then speak through
+// their links, and the diagnosis name what is rounding.
+constexpr double kMotorFloor = 100.0;
+
 double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma + kLeastOutside; }
 
 }  // namespace
@@ -117,7 +121,7 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   wanders(layout.w_dot, air_of(k).w_dot), wanders(layout.v_dot, air_of(k).v_dot);
   const double omega_m = theta_->p(trial_u_)[param::omega_m];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
-    const double f = noise_.q_motor * h + floor(kRotorChannel + n, 5.0);
+    const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0);
     W[layout.motors + n] = 1.0 / f;
     W[layout.motors + layout.rotors + n] = 1.0 / (f * omega_m * omega_m);
   }

@@ -15,6 +15,9 @@ namespace {
 
 // Gusts are not slower than this, s: what stays longer is a cause to be found, not noise.
 constexpr double kSlowest = 4.0;
+constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
+// A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
+constexpr double kNothing = 1e-11;
 
 // Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown.
 struct ProcessMoments {
@@ -39,10 +42,11 @@ struct ProcessMoments {
     const double ratio = std::clamp(innovations(now, next, cross) / determined / variance, 0.02, 50.0);
     const double carried = std::clamp((cross + P_cross) / (0.5 * (now + P_now + next + P_next)), 0.01, 0.998);
     const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
+    const bool nothing = variance < kNothing;
     noise.sigma *= std::sqrt(ratio);
     noise.tau =
         std::clamp(noise.tau * std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0), 0.3 * h, kSlowest);
-    return std::abs(std::sqrt(ratio) - 1);
+    return nothing ? 0 : std::abs(std::sqrt(ratio) - 1);
   }
 };
 
@@ -73,7 +77,7 @@ double FlightSmoother::retune(int rounds) {
       std::array<ProcessMoments, 3> turn, push;
     };
     std::vector<LogMoments> logs(noise_.air.size());
-    double motors = 0, motor_seconds = 0;
+    double motors = 0, motors_determined = 0, links = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
       const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
@@ -88,12 +92,12 @@ double FlightSmoother::retune(int rounds) {
       add(log.turn, layout.w_dot), add(log.push, layout.v_dot);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
       const auto E = chunk::E(results_[k], n);
-      const VectorXd d = defect(k);
+      const VectorXd d = defect(k), W = link_weight(k);
       for (int r = layout.motors; r < layout.motors + layout.rotors; ++r) {
         const VectorXd e = E.row(r).head(n).transpose();
         const double left = d[r] + e.dot(dx[k]) + E.row(r).tail(theta_->size()).dot(du) - dx[k + 1][r];
         const double V = e.dot(el.P[k] * e) - 2 * e.dot(el.cross[k].col(r)) + el.P[k + 1](r, r);
-        motors += left * left + V, motor_seconds += h;
+        motors += W[r] * left * left, motors_determined += 1 - W[r] * V, links += 1;
       }
     }
     change = 0;
@@ -101,10 +105,11 @@ double FlightSmoother::retune(int rounds) {
       for (std::size_t i = 0; i < 3; ++i)
         change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i]),
                            logs[log].push[i].update(noise_.air[log].v_dot[i])});
-    if (motor_seconds > 0) {
-      const double ratio = motors / motor_seconds / noise_.q_motor;
-      noise_.q_motor = std::max(noise_.q_motor * std::clamp(std::pow(ratio, 1.8), 0.02, 50.0), 1e-9);
-      change = std::max(change, 0.5 * std::abs(ratio - 1));
+    if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
+      const double determined = std::max(motors_determined, 0.01 * links);
+      const double ratio = std::clamp(motors / determined, 0.02, 50.0);
+      noise_.q_motor = std::max(noise_.q_motor * ratio, kLeastMotor);
+      if (noise_.q_motor > kLeastMotor) change = std::max(change, std::abs(std::sqrt(ratio) - 1));
     }
     if (change < 0.01) break;
   }

@@ -136,6 +136,26 @@ Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& star
   return best;
 }
 
+namespace {
+
+constexpr int kRejected =
+    10;  // steps that may fail beyond those asked for: the trust region shrinks meanwhile
+
+/// Ends the search after a number of steps that were taken.
+class EnoughSteps : public ceres::IterationCallback {
+ public:
+  explicit EnoughSteps(int steps) : left_(steps) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (summary.iteration > 0 && summary.step_is_successful) --left_;
+    return left_ > 0 ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+ private:
+  int left_;
+};
+
+}  // namespace
+
 SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start) {
   silence_log();
   SteppedMinimum best{start};
@@ -150,8 +170,10 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   options.function_tolerance = problem.tolerance;
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
-  options.max_num_iterations = problem.max_steps;
+  options.max_num_iterations = problem.max_steps + kRejected;
   options.logging_type = ceres::SILENT;
+  EnoughSteps enough(problem.max_steps);
+  options.callbacks.push_back(&enough);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &minimisation, &summary);
   best.cost = summary.final_cost;

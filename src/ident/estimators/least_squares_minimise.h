@@ -29,7 +29,7 @@ struct SteppedProblem {
   Eigen::Index residuals = 0;
   ResidualFunction evaluate;  ///< in unconstrained coordinates; `J` null for a trial step
   double tolerance = 1e-9;    ///< relative change of the cost
-  int max_steps = 30;
+  int max_steps = 30;         ///< that are taken; some more may fail
   double initial_radius = 1e4;
 };
 
