@@ -63,7 +63,7 @@ std::string notes(const std::vector<std::string>& notices) {
     at->second += (at->second.empty() ? "" : "; ") + notice.substr(file.size());
   }
   std::string text;
-  for (const auto& [file, decisions] : by_file) text += "note: " + file + decisions + "\n";
+  for (const auto& [file, decisions] : by_file) text += fmt::format("note: {}{}\n", file, decisions);
   return text;
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kColumn = 26;  // where the meaning of an option begins
 /// in.
 std::size_t indent_of(const std::string& line) {
   const std::size_t first = line.find_first_not_of(' '), gap = line.find("  ", first);
-  if (gap != std::string::npos && gap < kColumn) return line.find_first_not_of(' ', gap);
+  if (gap < kColumn) return line.find_first_not_of(' ', gap);
   const bool option = first == 2 && line.size() > kColumn && line[kColumn - 1] == ' ' && line[first] == '-';
   return option ? kColumn : first == 0 ? 0 : std::min(first + 4, kColumn);
 }

@@ -16,7 +16,7 @@ struct Options {
 /// Vehicle file with the parameter file laid over it; either may be missing.
 Vehicle named_vehicle(const Options& options, Context& context) {
   if (options.params.empty()) return read_vehicle(options.vehicle);
-  const Vehicle found = read_vehicle(options.params);
+  Vehicle found = read_vehicle(options.params);
   if (options.vehicle.empty()) return found;
   context.used.push_back(options.params);
   return with_parameters(read_vehicle(options.vehicle), found);

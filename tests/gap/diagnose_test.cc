@@ -61,6 +61,22 @@ TEST(Diagnosis, LongMotorDelayIsFoundThoughItIsFarFromLinear) {
   EXPECT_NEAR(found.adopted.parameters.at("motor_delay.tau").value, 0.02, 1e-3);
 }
 
+// A turned sensor mimics a biased accelerometer for most of a flight, but not all: a regression on what the
+// sensors show finds the rest.
+TEST(Diagnosis, ALookAlikeIsNotNamedWhenTheCauseItselfMayNotBe) {
+  Vehicle truth = published();
+  const Vehicle model = truth;
+  truth.parameters["imu_bias.ax"] = {0.3, {}};
+  truth.parameters["imu_bias.az"] = {0.2, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 5)};
+  GapOptions options;
+  EXPECT_EQ(diagnose_gap(model, logs, options).result.extra["verdict"]["effects"],
+            nlohmann::ordered_json({"imu_bias"}));
+  options.exclude = {"imu_bias"};
+  const auto verdict = diagnose_gap(model, logs, options).result.extra["verdict"];
+  EXPECT_EQ(verdict["status"], "unknown") << verdict["sentence"];
+}
+
 // A payload too light to be weighed shows as a shifted centre of gravity only: both are named. Where the mass
 // is known well it is the payload.
 TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {

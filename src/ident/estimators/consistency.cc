@@ -40,7 +40,7 @@ void Consistency::doubtful(std::string what, Warning warning) {
   warnings.push_back(std::move(warning));
 }
 
-void Consistency::cannot_be_judged(std::string what, std::string missing) {
+void Consistency::cannot_be_judged(std::string what, const std::string& missing) {
   findings.push_back({std::move(what), "cannot be judged", "without " + missing});
 }
 

@@ -33,7 +33,7 @@ struct Consistency {
   void ok(std::string what, std::string numbers);
   void violated(std::string what, Violation violation);
   void doubtful(std::string what, Warning warning);
-  void cannot_be_judged(std::string what, std::string missing);
+  void cannot_be_judged(std::string what, const std::string& missing);
 };
 
 // The checks, each on its own subject.

@@ -146,17 +146,16 @@ double update_noise(FlightSmoother& smoother, int rounds) {
   return std::max(0.3 * change, white);
 }
 
-double chunk_for(const FlightRecord& record, const NoiseModel& noise) {
+double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {
   // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
-  // the velocity by h/4 of that. All rows of the chunk share this error, so it may reach a quarter of the
-  // noise of their mean: else what the gusts hide would pass for known.
+  // the velocity by h/4 of that. This may reach half the noise of one sample; or, since all rows of the chunk
+  // share the error, a quarter of the noise of their mean.
   double h = 0.25;
   const auto shorten = [&](std::size_t channel, const std::array<ColouredNoise, 3>& process) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool measured = record.sigma[channel + i] != 1.0;
-      if (measured && process[i].sigma > 0)
-        h = std::min(h, std::sqrt(noise.sigma[channel + i] * std::sqrt(record.interval * process[i].tau / 2) /
-                                  process[i].sigma));
+      if (record.sigma[channel + i] == 1.0 || !(process[i].sigma > 0)) continue;  // 1: not measured
+      const double ratio = noise.sigma[channel + i] * std::sqrt(process[i].tau / 2) / process[i].sigma;
+      h = std::min(h, fine ? std::sqrt(ratio * std::sqrt(record.interval)) : std::pow(2 * ratio, 2.0 / 3.0));
     }
   };
   for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
@@ -225,7 +224,8 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     smoother->accept();
     if (options.robust) smoother->set_huber(kHuber);
     const double change = update_noise(*smoother, 6);
-    const double wanted = options.chunk_seconds > 0 ? chunk : chunk_for(record, smoother->noise());
+    const double wanted =
+        options.chunk_seconds > 0 ? chunk : chunk_for(record, smoother->noise(), options.fine_gusts);
     if (round < 2 && (wanted > 1.5 * chunk || wanted < chunk / 1.5)) {
       chunk = wanted;
       smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);

@@ -14,7 +14,8 @@ struct FlightFitOptions {
   bool estimate_noise = true;
   std::optional<NoiseModel> noise;  ///< to start from
   int noise_rounds = 10;
-  bool robust = true;          ///< count gross errors linearly
+  bool robust = true;      ///< count gross errors linearly
+  bool fine_gusts = true;  ///< chunks so short that no gust within them passes for information on the vehicle
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
   int threads = 0;
@@ -57,7 +58,7 @@ NoiseModel initial_noise(const FlightRecord& record);
 /// for the sensors; returns the largest relative change of a standard deviation.
 double update_noise(FlightSmoother& smoother, int rounds);
 
-/// Chunks short enough for that noise, s.
-double chunk_for(const FlightRecord& record, const NoiseModel& noise);
+/// Chunks short enough for that noise, s; `fine`: see FlightFitOptions.
+double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine = true);
 
 }  // namespace ident

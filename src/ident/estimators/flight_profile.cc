@@ -90,6 +90,7 @@ std::vector<int> weak_constants(const FlightFit& fit, const std::vector<Paramete
   }
   std::ranges::sort(weak);
   std::vector<int> out;
+  out.reserve(weak.size());
   for (const auto& [rank, i] : weak) out.push_back(i);
   return out;
 }

@@ -27,7 +27,11 @@ double sensor_delay_of(const std::vector<double>& p, double interval) {
 
 FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, NoiseModel noise,
                                double chunk_seconds, int threads)
-    : record_(&record), theta_(&theta), noise_(noise), chunk_seconds_(chunk_seconds), threads_(threads) {
+    : record_(&record),
+      theta_(&theta),
+      noise_(std::move(noise)),
+      chunk_seconds_(chunk_seconds),
+      threads_(threads) {
   if (threads_ <= 0) threads_ = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
@@ -92,6 +96,7 @@ ChunkTask FlightSmoother::task(std::size_t k, const VectorXd& u, const std::vect
 void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage) {
   const std::vector<double> p = theta_->p(u);
   std::vector<std::vector<Seed>> seeds;
+  seeds.reserve(static_cast<std::size_t>(record_->logs));
   for (int log = 0; log < record_->logs; ++log) seeds.push_back(theta_->seeds(u, log));
   std::array<double, kChannels> weight;
   for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / noise_.sigma[c];

@@ -77,6 +77,7 @@ std::vector<int> channels_that_gain(const std::vector<PredictionWindow>& before,
   }
   std::ranges::sort(gains);
   std::vector<int> channels;
+  channels.reserve(gains.size());
   for (const auto& [gain, channel] : gains) channels.push_back(channel);
   return channels;
 }

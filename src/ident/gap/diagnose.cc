@@ -165,7 +165,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
-  Judged verdict = judge(search, gap, rival, lines, jumps);
+  result.parameters = flight_parameters(best, search.best.fit, "gap");
+  Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   const std::string wrong = disqualified(tested);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   result.extra["verdict"] = {{"status", verdict.status},
@@ -183,6 +184,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                          {"horizons", horizons}};
   Json left = Json::object();
   for (std::size_t c = 0; c < 6; ++c) left[before.names[c]] = rival.gain[c];
+  for (const auto& [channel, gain] : rival.sensors) left[channel] = gain;
   result.extra["generic_rival"] = left;
   Json scatter = Json::object();
   for (const Candidate& c : search.best.adopted) scatter[described(c)] = search.scatter_of(c);
@@ -203,7 +205,6 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Json steps = Json::array();
   for (const SearchStep& s : search.steps) steps.push_back({{"adopted", s.name}, {"gain", s.gain}});
   result.extra["search"] = steps;
-  result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =

@@ -16,6 +16,7 @@ constexpr double kChunk = 0.2;  // s: features are slow
 constexpr int kFolds = 6;
 // Coefficients that are expected, in standard deviations of the noise a unit of a feature: the best is taken.
 constexpr std::array kSizes = {1.0, 0.3, 0.1};
+constexpr double kGross = 6.0;  // residuals of a sensor count up to this
 
 double at(const std::vector<double>& column, std::size_t i) { return column.empty() ? 1.0 : column[i]; }
 
@@ -92,12 +93,79 @@ double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& pr
   return gain;
 }
 
+// The same for what a sensor shows beyond the model: weighted residuals of a channel, and how many, by chunk.
+struct SensorResiduals {
+  VectorXd sum, count;
+};
+SensorResiduals residuals_of(const std::vector<std::vector<double>>& residuals, std::size_t channel) {
+  const auto chunks = static_cast<Index>(residuals.size());
+  SensorResiduals out{VectorXd::Zero(chunks), VectorXd::Zero(chunks)};
+  for (Index k = 0; k < chunks; ++k) {
+    const std::vector<double>& of = residuals[static_cast<std::size_t>(k)];
+    for (std::size_t i = channel; i < of.size(); i += kChannels)
+      if (std::isfinite(of[i])) out.sum[k] += std::clamp(of[i], -kGross, kGross), out.count[k] += 1;
+  }
+  return out;
+}
+
+// Fall of the cost on the chunks of each fold, of a regression on X fitted to the others.
+double held_out_gain(const SensorResiduals& r, const MatrixXd& X, const std::vector<int>& folds,
+                     double expected) {
+  double gain = 0;
+  for (int fold = 0; fold < kFolds; ++fold) {
+    VectorXd fitted_count = r.count, left_count = r.count;
+    VectorXd fitted_sum = r.sum;
+    for (Index k = 0; k < X.rows(); ++k) {
+      const bool left_out = folds[static_cast<std::size_t>(k)] == fold;
+      (left_out ? fitted_count : left_count)[k] = 0;
+      if (left_out) fitted_sum[k] = 0;
+    }
+    MatrixXd H = X.transpose() * fitted_count.asDiagonal() * X;
+    H.diagonal().array() += 1 / (expected * expected);
+    const VectorXd predicted = X * Eigen::LDLT<MatrixXd>(H).solve(X.transpose() * fitted_sum);
+    for (Index k = 0; k < X.rows(); ++k)
+      if (left_count[k] > 0) gain += predicted[k] * (2 * r.sum[k] - left_count[k] * predicted[k]);
+  }
+  return gain;
+}
+
+// What the sensors show beyond the model, channel by channel; a constant is one of the features.
+void add_sensors(Rival& rival, const FlightRecord& record, FlightSmoother& smoother, const MatrixXd& X) {
+  MatrixXd with_constant(X.rows(), X.cols() + 1);
+  with_constant << X, VectorXd::Ones(X.rows());
+  std::vector<int> folds;
+  for (const ChunkPlace& place : smoother.chunks()) {
+    const double t = record.arcs[static_cast<std::size_t>(place.arc)].t[place.begin];
+    folds.push_back(static_cast<int>(std::abs(t) / 4.0) % kFolds);
+  }
+  const auto residuals = smoother.residuals();
+  for (int channel = 0; channel < kRotorChannel + record.layout.rotors; ++channel) {
+    const SensorResiduals r = residuals_of(residuals, static_cast<std::size_t>(channel));
+    if (r.count.sum() < 1000) continue;
+    double best = -1e300;
+    for (const double size : kSizes)
+      best = std::max(best, held_out_gain(r, with_constant, folds, 0.3 * size));
+    rival.sensors.emplace_back(channel_name(channel), best);
+  }
+}
+
 }  // namespace
 
 double Rival::total() const {
   double sum = 0;
   for (const double x : gain) sum += std::max(x, 0.0);
+  for (const auto& [channel, x] : sensors) sum += std::max(x, 0.0);
   return sum;
+}
+
+std::string Rival::strongest() const {
+  static constexpr std::array wrench = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+  const auto most = std::ranges::max_element(gain);
+  std::string name = wrench[static_cast<std::size_t>(most - gain.begin())];
+  double best = *most;
+  for (const auto& [channel, x] : sensors)
+    if (x > best) best = x, name = channel;
+  return name;
 }
 
 Rival generic_rival(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
@@ -112,6 +180,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   const double hover =
       std::sqrt(p[param::m] * record.vehicle->g / (static_cast<double>(record.layout.rotors) * p[param::kT]));
   const MatrixXd X = features(record, smoother, hover);
+  add_sensors(rival, record, smoother, X);
   const PriorTerms prior = theta.prior(fit.u);
   double push = 0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();

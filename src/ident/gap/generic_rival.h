@@ -12,7 +12,10 @@ namespace ident {
 /// to. Below 0: it only follows noise.
 struct Rival {
   std::array<double, 6> gain{};  ///< Fx Fy Fz Mx My Mz
-  double total() const;          ///< of the channels that gain
+  /// The same for what each sensor shows beyond the model, by name of its channel.
+  std::vector<std::pair<std::string, double>> sensors;
+  double total() const;           ///< of the channels that gain
+  std::string strongest() const;  ///< name of the channel that gains most
 };
 
 /// The rival of a fitted model under the noise `floor`; `wrench` is that of the model.

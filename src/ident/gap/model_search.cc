@@ -81,7 +81,8 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   adopted.push_back(cause);
   FlightFitOptions again = options;
   again.noise = at_now.form.noise;
-  again.chunk_seconds = std::min(at_now.best.fit.chunk_seconds, chunk_for(record, at_now.form.noise));
+  again.chunk_seconds =
+      std::min(at_now.best.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
   again.estimate_noise = false;
   return fitted(constants, adopted, record, at, again);
 }
@@ -144,6 +145,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
   FlightFitOptions fit;
   fit.tolerance = 0.02;
   fit.noise_rounds = 4;
+  fit.fine_gusts = false;  // sets are compared under a dispersion that is common to them
   tell(0.0, "the model as it is");
   std::vector<FreeConstant> base = free_constants(vehicle, p);
   if (!record.signals.commands)

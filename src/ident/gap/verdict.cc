@@ -17,8 +17,11 @@ constexpr double kMostlyClosed = 0.5;
 // A generic rival that gains this much on held-out flight has seen something, and that share of what the
 // causes explain is too much for a catalogue that should be enough.
 constexpr double kRivalGain = 45.0;
+constexpr double kRivalBeside = 60.0;  // beside causes, whose own form is never quite that of the real thing
 constexpr double kRivalShare = 0.25;
 constexpr double kSure = 0.8;
+// Standard deviations by which a constant may be pulled off its bench value beside the right cause.
+constexpr double kContradicts = 5.0;
 
 // The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
 std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
@@ -31,10 +34,25 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
   return names;
 }
 
+// The constant that the flight, with the causes found, pulls furthest off its bench value, if too far. One
+// whose value is among those causes may be anywhere.
+const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::vector<Candidate>& adopted) {
+  const Parameter* worst = nullptr;
+  double most = kContradicts;
+  for (const Parameter& p : fitted) {
+    const bool heard = p.from_flight && *p.from_flight > 0.05;
+    const auto is_it = [&](const Candidate& c) { return c.name == "parameter:" + p.name; };
+    if (!p.pull || !heard || !(std::abs(*p.pull) > most) || std::ranges::any_of(adopted, is_it)) continue;
+    worst = &p, most = std::abs(*p.pull);
+  }
+  return worst;
+}
+
 }  // namespace
 
 Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
-             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps) {
+             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
+             const std::vector<Parameter>& fitted) {
   Judged out;
   out.effects = names_of(search.best.adopted);
   if (!search.ran_away.empty()) {
@@ -53,8 +71,8 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
       out.status = "unknown";
       out.sentence =
           "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
-          "misses can "
-          "be predicted from the flight itself.";
+          "misses, most in " +
+          rival.strongest() + ", can be predicted from the flight itself.";
     } else if (!lines.empty()) {
       out.status = "unknown";
       out.sentence = fmt::format(
@@ -76,16 +94,26 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     return out;
   }
   const bool remains = std::isfinite(gap.closed) && gap.closed < kMostlyClosed;
-  const bool better = rival.total() > kRivalGain && rival.total() > kRivalShare * found;
+  const bool better = rival.total() > std::max(kRivalBeside, kRivalShare * found);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (remains || better) {
     out.status = "unknown";
     out.confused_with = out.effects;
-    out.sentence =
-        fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
-                    fmt::join(out.effects, " with "),
-                    remains ? "most of the gap remains with it"
-                            : "a plain regression on the flight predicts what it leaves");
+    out.sentence = fmt::format(
+        "A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
+        fmt::join(out.effects, " with "),
+        remains ? "most of the gap remains with it"
+                : "a plain regression on the flight predicts what it leaves, most in " + rival.strongest());
+    out.effects.clear();
+    return out;
+  }
+  if (const Parameter* p = contradicted(fitted, search.best.adopted)) {
+    out.status = "unknown";
+    out.confused_with = out.effects;
+    out.sentence = fmt::format(
+        "A gap is there that the catalogue does not explain. The nearest is {}, but with that the flight "
+        "contradicts the value of {} known beforehand by {:.0f} standard deviations.",
+        fmt::join(out.effects, " with "), p->name, std::abs(*p->pull));
     out.effects.clear();
     return out;
   }

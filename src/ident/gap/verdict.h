@@ -20,6 +20,7 @@ struct Judged {
 
 /// From the search, the share closed on held-out flight, and what no cause of the catalogue can do.
 Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
-             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps);
+             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
+             const std::vector<Parameter>& fitted);
 
 }  // namespace ident
