@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/gap/diagnose.h"
 #include "ident/io/read_flight_log.h"

@@ -6,8 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "ident/estimators/flight_fit.h"
-#include "ident/io/vehicle_file.h"
-#include "ident/model/simulate.h"
+#include "support/published_hover.h"
 
 namespace ident {
 namespace {
@@ -15,17 +14,12 @@ namespace {
 // A centre of gravity c to the right of the origin: the model, which lacks it, misses a moment m g c about x,
 // hence an angular acceleration m g c/Jxx as long as the vehicle hovers.
 TEST(FlightSmoother, ConstantProfileTakesUpTheMomentOfAnOffCentreMass) {
-  const Vehicle model = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  const Vehicle model = testing::published_vehicle();
   Vehicle truth = model;
   constexpr double c = 0.002;
   truth.parameters["cg_offset.y"] = {c, {}};
-  SimulationOptions options;
-  options.scenario = "hover";
-  options.duration = 12.0;
-  options.rate = 100.0;
-  const std::vector<FlightLog> logs{simulate_flight(truth, options).log};
+  const FlightRecord record = testing::hover_record(truth, model, 12.0);
   const std::vector<double> p = parameter_vector(model);
-  const FlightRecord record = make_flight_record(model, p, logs);
   const Theta theta(p, {}, 1, true);
   NoiseModel noise = initial_noise(record);
   noise.air[0].w_dot.fill({0.5, 1.0});

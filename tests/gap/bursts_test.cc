@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/core/random.h"
-#include "ident/io/vehicle_file.h"
-#include "ident/model/simulate.h"
+#include "support/published_hover.h"
 
 namespace ident {
 namespace {
@@ -13,14 +12,9 @@ namespace {
 // A fit whose smoothed accelerations are steady gusts, with a burst of `burst` m/s^2 downwards over two
 // pieces.
 std::vector<Burst> found_with(double burst, double* at = nullptr) {
-  const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
-  SimulationOptions options;
-  options.scenario = "hover";
-  options.duration = 20.0;
-  options.rate = 100.0;
-  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  const Vehicle vehicle = testing::published_vehicle();
+  const FlightRecord record = testing::hover_record(vehicle, vehicle, 20.0);
   const std::vector<double> p = parameter_vector(vehicle);
-  const FlightRecord record = make_flight_record(vehicle, p, logs);
   const Theta theta(p, {}, 1, true);
   FlightFit fit;
   fit.noise = initial_noise(record);

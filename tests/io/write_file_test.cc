@@ -53,8 +53,11 @@ TEST(WriteWhole, AKilledProgramLeavesTheOldFileOrTheNewOne) {
   write_whole(path, a);
   int killed_while_writing = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    const int status = in_child([&] { for (;;) write_whole(path, b), write_whole(path, a); },
-                                static_cast<useconds_t>(1000 + 700 * trial));
+    const int status = in_child(
+        [&] {
+          for (;;) write_whole(path, b), write_whole(path, a);
+        },
+        static_cast<useconds_t>(1000 + 700 * trial));
     EXPECT_TRUE(WIFSIGNALED(status));
     killed_while_writing += files_in(folder) > 1;
     const std::string found = content_of(path);

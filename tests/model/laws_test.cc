@@ -5,24 +5,13 @@
 #include "ident/effects/catalogue.h"
 #include "ident/model/flight.h"
 #include "support/random_vehicle.h"
+#include "support/restless_commands.h"
 
 namespace ident {
 namespace {
 
+using testing::restless_commands;
 using Vector = Vec3<double>;
-
-/// Commands of all rotors over one second, different for each.
-FlightInputs restless_commands(std::size_t rotors) {
-  FlightInputs inputs;
-  for (std::size_t n = 0; n < rotors; ++n) {
-    std::vector<double> t, delta;
-    const double phase = 1.7 * static_cast<double>(n);
-    for (int i = 0; i < 100; ++i)
-      t.push_back(0.01 * i), delta.push_back(0.55 + 0.2 * std::sin(0.3 * i + phase));
-    inputs.delta.push_back(HeldCommand(t, delta));
-  }
-  return inputs;
-}
 
 FlightState<double> moving_state(const std::vector<double>& p, std::size_t rotors) {
   FlightState<double> x;

@@ -62,13 +62,7 @@ TEST_F(CampaignInBrowser, ShowsTheWholeCampaignInLightAndDarkZoomsAndPrintsEvery
   expect_alive("report");
   EXPECT_EQ(value(script("poor_contrast.js")), nlohmann::json::array());
 
-  value("document.querySelector('.chart').scrollIntoView({ block: 'center', behavior: 'instant' })");
-  const nlohmann::json box =
-      value("document.querySelector('.chart .u-over').getBoundingClientRect().toJSON()");
-  const double left = box.at("left"), width = box.at("width"), y = box.at("top").get<double>() + 60;
-  browser_->drag(left + 0.25 * width, left + 0.5 * width, y);
-  wait_a_moment();
-  EXPECT_GE(value("document.querySelectorAll('.reset:not([hidden])').length"), 1) << "no zoom";
+  expect_zoom();
 
   if (!can_read_pdf()) GTEST_SKIP() << "poppler-utils is not installed (tests/run.sh installs it)";
   const std::string paper = letters(printed_text());

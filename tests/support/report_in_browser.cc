@@ -39,6 +39,16 @@ void ReportInBrowser::open(const std::string& html) {
   open_file(page);
 }
 
+void ReportInBrowser::expect_zoom() {
+  value("document.querySelector('.chart').scrollIntoView({ block: 'center', behavior: 'instant' })");
+  const nlohmann::json box =
+      value("document.querySelector('.chart .u-over').getBoundingClientRect().toJSON()");
+  const double left = box.at("left"), width = box.at("width"), y = box.at("top").get<double>() + 60;
+  browser_->drag(left + 0.25 * width, left + 0.5 * width, y);
+  wait_a_moment();
+  EXPECT_GE(value("document.querySelectorAll('.reset:not([hidden])').length"), 1) << "no zoom";
+}
+
 void ReportInBrowser::open_file(const fs::path& page) { browser_->open(page); }
 
 void ReportInBrowser::see_everything() {

@@ -21,6 +21,8 @@ class ReportInBrowser : public ::testing::Test {
 
   /// Scrolls through the page, so that every plot comes into view, then back to the top.
   void see_everything();
+  /// Drags over the first chart: it zooms.
+  void expect_zoom();
   void wait_a_moment() { value("new Promise((done) => setTimeout(done, 150))"); }
 
   /// What stands on the paper when the page is printed.

@@ -10,6 +10,7 @@
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_command_offset.h"
+#include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
@@ -22,12 +23,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
-double mean_of_used(const std::vector<double>& column) {
-  double sum = 0, n = 0;
-  for (const double x : column)
-    if (std::isfinite(x) && x > 0) sum += x, n += 1;
-  return n > 0 ? sum / n : kNaN;
-}
 
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   for (const Parameter& p : result.parameters) {
@@ -98,38 +93,6 @@ Section validation(const FlightRecord& held_out, const Theta& theta, const Vecto
 }
 
 }  // namespace
-
-std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const FlightLog> logs,
-                                       std::vector<Warning>& warnings) {
-  Vehicle start = vehicle;
-  const auto assume = [&](const std::string& name, double value, const std::string& how) {
-    if (start.has(name) && start.value(name) > 0) return;
-    start.parameters[name].value = value;
-    warnings.push_back({"assumed_start", fmt::format("{}: not given, the search starts at {} ({})", name,
-                                                     format_number(value), how)});
-  };
-  if (!start.has("m")) throw UsageError(vehicle.file + ": mass: needed, no flight can tell it from kT");
-  const double weight = start.value("m") * vehicle.g, rotors = static_cast<double>(vehicle.rotors.size());
-  double level = kNaN, speed = kNaN, arm = 0;
-  for (const FlightLog& log : logs) {
-    for (const auto& c : log.delta) level = std::isfinite(level) ? level : mean_of_used(c);
-    for (const auto& c : log.Omega) speed = std::isfinite(speed) ? speed : mean_of_used(c);
-  }
-  for (const Rotor& r : vehicle.rotors) arm = std::max(arm, r.r_B.head<2>().norm());
-  if (!std::isfinite(speed))
-    speed = start.has("kT") && start.value("kT") > 0  ? std::sqrt(weight / (rotors * start.value("kT")))
-            : start.has("km") && std::isfinite(level) ? start.value("km") * level
-                                                      : 800.0;
-  assume("kT", weight / (rotors * speed * speed), "hover at the mean rotor speed");
-  assume("kQ", 0.015 * std::max(arm / 0.15, 0.3) * start.value("kT"), "a usual ratio to kT");
-  if (std::isfinite(level)) assume("km", speed / level, "hover at the mean command");
-  assume("omega_m", 20.0, "a usual motor");
-  const double J = start.value("m") * std::pow(0.4 * arm, 2);
-  assume("Jxx", J, "mass within 0.4 arm lengths");
-  assume("Jyy", J, "mass within 0.4 arm lengths");
-  assume("Jzz", 1.7 * J, "mass within 0.4 arm lengths");
-  return parameter_vector(start);
-}
 
 std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit,
                                          const std::string& source) {
@@ -220,21 +183,9 @@ Section data_health(const FlightRecord& record, std::span<const FlightLog> logs,
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   Result result;
   result.command = "flightlog";
-  const std::vector<double> p = starting_constants(vehicle, logs, result.warnings);
-  const FlightRecord record = make_flight_record(vehicle, p, logs);
-  for (const FlightLog& log : logs) {
-    result.inputs.push_back(log.file);
-    result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
-  }
-  result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
-  const std::vector<Warning> tested = self_test(record, logs, vehicle, p);
-  result.warnings.insert(result.warnings.end(), tested.begin(), tested.end());
+  const auto [p, record, tested] = enter_flight(vehicle, logs, result);
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
-  if (!record.signals.commands)
-    std::erase_if(constants, [](const FreeConstant& c) {
-      return c.index == param::km || c.index == param::omega_m || c.index == param::zeta_m ||
-             c.index == param::dead_time || c.index == param::Omega_0;
-    });
+  if (!record.signals.commands) leave_out_motors(constants);
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
   auto free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);

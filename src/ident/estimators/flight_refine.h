@@ -27,10 +27,6 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
 /// model: RMS, fit in percent and Theil's inequality coefficient per channel.
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
 
-/// Constants to start from where the vehicle file is silent, with what was assumed as warnings.
-std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const FlightLog> logs,
-                                       std::vector<Warning>& warnings);
-
 /// Shared by refinement and diagnosis: the estimates of a fit as parameters of a result.
 std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit, const std::string& source);
 

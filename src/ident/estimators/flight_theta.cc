@@ -178,4 +178,11 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
   return free;
 }
 
+void leave_out_motors(std::vector<FreeConstant>& constants) {
+  std::erase_if(constants, [](const FreeConstant& c) {
+    return c.index == param::km || c.index == param::omega_m || c.index == param::zeta_m ||
+           c.index == param::dead_time || c.index == param::Omega_0;
+  });
+}
+
 }  // namespace ident

@@ -68,4 +68,7 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
 /// Unit step of a constant: its typical size where its value may be zero.
 double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p);
 
+/// Takes out the constants from command to rotor speed, of which logs without commands say nothing.
+void leave_out_motors(std::vector<FreeConstant>& constants);
+
 }  // namespace ident

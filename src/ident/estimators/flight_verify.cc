@@ -6,6 +6,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_channels.h"
+#include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/estimators/flight_self_test.h"
 
@@ -21,15 +22,7 @@ struct Sums {
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon) {
   Result result;
   result.command = "flightlog";
-  const std::vector<double> p = starting_constants(vehicle, logs, result.warnings);
-  const FlightRecord record = make_flight_record(vehicle, p, logs);
-  for (const FlightLog& log : logs) {
-    result.inputs.push_back(log.file);
-    result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
-  }
-  result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
-  const std::vector<Warning> tested = self_test(record, logs, vehicle, p);
-  result.warnings.insert(result.warnings.end(), tested.begin(), tested.end());
+  const auto [p, record, tested] = enter_flight(vehicle, logs, result);
   const Theta theta(p, {}, record.logs, record.signals.rates);
   // States at the start of every window, from the log itself; the constants stay as stated.
   const NoiseModel noise = initial_noise(record);

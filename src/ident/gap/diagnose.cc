@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/gap/evidence.h"
@@ -114,15 +115,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Result& result = out.result;
   result.schema = "ident.gap/1";
   result.command = "gap";
-  const std::vector<double> p = starting_constants(vehicle, logs, result.warnings);
-  const FlightRecord record = make_flight_record(vehicle, p, logs);
-  for (const FlightLog& log : logs) {
-    result.inputs.push_back(log.file);
-    result.warnings.insert(result.warnings.end(), log.warnings.begin(), log.warnings.end());
-  }
-  result.warnings.insert(result.warnings.end(), record.warnings.begin(), record.warnings.end());
-  const std::vector<Warning> tested = self_test(record, logs, vehicle, p);
-  result.warnings.insert(result.warnings.end(), tested.begin(), tested.end());
+  const auto [p, record, tested] = enter_flight(vehicle, logs, result);
   SearchOptions search_options{options.exclude, options.most_causes, options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);
   if (options.progress) options.progress(0.9, "held-out flight");

@@ -148,11 +148,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
   fit.fine_gusts = false;  // sets are compared under a dispersion that is common to them
   tell(0.0, "the model as it is");
   std::vector<FreeConstant> base = free_constants(vehicle, p);
-  if (!record.signals.commands)
-    std::erase_if(base, [](const FreeConstant& c) {
-      return c.index == param::km || c.index == param::omega_m || c.index == param::zeta_m ||
-             c.index == param::dead_time || c.index == param::Omega_0;
-    });
+  if (!record.signals.commands) leave_out_motors(base);
   out.base = fitted(base, {}, record, p, fit);
   out.best = out.base;
   const auto everything_at = [&](const FittedModel& model, ExtendedProblem& problem) {

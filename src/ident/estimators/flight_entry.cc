@@ -1,0 +1,74 @@
+// What refinement, verification and diagnosis begin with.
+#include "ident/estimators/flight_entry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/error.h"
+#include "ident/core/format_number.h"
+#include "ident/estimators/flight_self_test.h"
+
+namespace ident {
+namespace {
+
+double mean_of_used(const std::vector<double>& column) {
+  double sum = 0, n = 0;
+  for (const double x : column)
+    if (std::isfinite(x) && x > 0) sum += x, n += 1;
+  return n > 0 ? sum / n : kNaN;
+}
+
+}  // namespace
+
+std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                                       std::vector<Warning>& warnings) {
+  Vehicle start = vehicle;
+  const auto assume = [&](const std::string& name, double value, const std::string& how) {
+    if (start.has(name) && start.value(name) > 0) return;
+    start.parameters[name].value = value;
+    warnings.push_back({"assumed_start", fmt::format("{}: not given, the search starts at {} ({})", name,
+                                                     format_number(value), how)});
+  };
+  if (!start.has("m")) throw UsageError(vehicle.file + ": mass: needed, no flight can tell it from kT");
+  const double weight = start.value("m") * vehicle.g, rotors = static_cast<double>(vehicle.rotors.size());
+  double level = kNaN, speed = kNaN, arm = 0;
+  for (const FlightLog& log : logs) {
+    for (const auto& c : log.delta) level = std::isfinite(level) ? level : mean_of_used(c);
+    for (const auto& c : log.Omega) speed = std::isfinite(speed) ? speed : mean_of_used(c);
+  }
+  for (const Rotor& r : vehicle.rotors) arm = std::max(arm, r.r_B.head<2>().norm());
+  if (!std::isfinite(speed))
+    speed = start.has("kT") && start.value("kT") > 0  ? std::sqrt(weight / (rotors * start.value("kT")))
+            : start.has("km") && std::isfinite(level) ? start.value("km") * level
+                                                      : 800.0;
+  assume("kT", weight / (rotors * speed * speed), "hover at the mean rotor speed");
+  assume("kQ", 0.015 * std::max(arm / 0.15, 0.3) * start.value("kT"), "a usual ratio to kT");
+  if (std::isfinite(level)) assume("km", speed / level, "hover at the mean command");
+  assume("omega_m", 20.0, "a usual motor");
+  const double J = start.value("m") * std::pow(0.4 * arm, 2);
+  assume("Jxx", J, "mass within 0.4 arm lengths");
+  assume("Jyy", J, "mass within 0.4 arm lengths");
+  assume("Jzz", 1.7 * J, "mass within 0.4 arm lengths");
+  return parameter_vector(start);
+}
+
+FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, Result& result) {
+  const auto tell = [&](const std::vector<Warning>& warnings) {
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  };
+  FlightEntry entry;
+  entry.p = starting_constants(vehicle, logs, result.warnings);
+  entry.record = make_flight_record(vehicle, entry.p, logs);
+  for (const FlightLog& log : logs) {
+    result.inputs.push_back(log.file);
+    tell(log.warnings);
+  }
+  tell(entry.record.warnings);
+  entry.tested = self_test(entry.record, logs, vehicle, entry.p);
+  tell(entry.tested);
+  return entry;
+}
+
+}  // namespace ident
