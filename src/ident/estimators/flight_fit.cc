@@ -20,6 +20,9 @@ constexpr double kSinglePrecision = 1e-4;
 // estimated.
 constexpr double kNear = 25.0;
 
+// Steps before noise is estimated: what the model misses there would pass for noise.
+constexpr int kFirstSteps = 4;
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -217,7 +220,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 1);
-  u = minimise_shared(*smoother, u, 1.0, 2, &fit.steps);
+  u = minimise_shared(*smoother, u, 1.0, kFirstSteps, &fit.steps);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
@@ -230,7 +233,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       chunk = wanted;
       smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
       smoother->set_huber(options.robust ? kHuber : 1e9);
-      smoother->settle(u, 1);
+      smoother->settle(u, 2);
     }
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
     if (change < 0.03 || (round >= 5 && change < 0.3)) break;

@@ -11,7 +11,8 @@
 namespace ident {
 namespace {
 
-constexpr double kEvident = 6.0;  // less of BIC that a richer static curve has to earn: "strong" evidence
+constexpr double kEvident =
+    12.0;  // less of BIC that a richer static curve has to earn: four standard deviations
 constexpr std::size_t kMostPlateaus = 80, kFewestRowsOfAPlateau = 10;
 constexpr double kFarOff = 4.0;  // standard deviations
 constexpr int kRowsInARow = 4;   // outliers come one by one

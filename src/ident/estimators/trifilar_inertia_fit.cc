@@ -149,7 +149,7 @@ LeastSquaresProblem PendulumModel::problem(Grouping grouping, bool trust_stated)
 LeastSquaresFit PendulumModel::fit(std::vector<Warning>& warnings) const {
   const LeastSquaresOptions options{.robust = rows_.size() >= kFewestRowsForOutliers};
   // First with free levels: they show whether stated deviations are right and whether the axes are alike.
-  const LeastSquaresFit free = solve_least_squares(problem(Grouping::pooled, false), options);
+  LeastSquaresFit free = solve_least_squares(problem(Grouping::pooled, false), options);
   std::vector<std::vector<double>> by_axis(kAxes.size());
   double squares = 0.0, stated = 0.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {

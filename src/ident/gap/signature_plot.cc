@@ -32,7 +32,7 @@ std::string caption_of(const Signature& s) {
 
 Plot scatter(const Signature& s) {
   const std::string unit = channel_unit(s.channel);
-  const auto [low, high] = std::ranges::minmax(s.x);
+  const double low = std::ranges::min(s.x), high = std::ranges::max(s.x);
   const std::vector<double> ends{low, high};
   const auto line = [&](double slope, double offset) {
     return std::vector<double>{slope * low + offset, slope * high + offset};

@@ -14,7 +14,8 @@ std::vector<LogSignal> log_signals(int rotors) {
       {{"vbat", voltage, {{"voltage", ""}}, 150.0}, LogGroup::battery},
       {{"current", current, {}, 2000.0}, LogGroup::battery},
   };
-  const auto add = [&](LogGroup group, Dimension dimension, double largest, std::vector<std::string> names) {
+  const auto add = [&](LogGroup group, Dimension dimension, double largest,
+                       const std::vector<std::string>& names) {
     for (const std::string& name : names) list.push_back({{name, dimension, {}, largest}, group});
   };
   add(LogGroup::rates, angular_rate, 40.0, {"p", "q", "r"});

@@ -116,7 +116,7 @@ class Loop {
   }
 
   std::string word(const Cells& cells, const ChosenText& column) const {
-    const std::string text = lower(cells[column.index]);
+    std::string text = lower(cells[column.index]);
     if (!column.words.empty() && std::ranges::find(column.words, text) == column.words.end())
       throw InputError(path_, csv_.line(), csv_.header()[column.index],
                        fmt::format("'{}' is none of {}{}", shown(cells[column.index]),

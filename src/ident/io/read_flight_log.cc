@@ -207,7 +207,8 @@ class Builder {
   }
 
   void take_windows() {
-    for (const auto& [from, to] : map_.windows) {
+    for (const auto& window : map_.windows) {
+      const double from = window[0], to = window[1];
       const auto rows = std::ranges::count_if(log_.t, [&](double t) { return t >= from && t <= to; });
       if (rows < 2)
         throw InputError(map_.file, map_.windows_line, "windows",

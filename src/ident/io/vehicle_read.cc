@@ -57,7 +57,7 @@ int read_spin(const YamlValue& value) {
 /// Unit thrust axis. A length that is off by rounding is no news, another one is a warning.
 Eigen::Vector3d read_axis(const YamlValue& value, Vehicle& vehicle) {
   const auto [x, y, z] = value.vector3();
-  const Eigen::Vector3d axis(x, y, z);
+  Eigen::Vector3d axis(x, y, z);
   const double length = axis.norm();
   if (!(length > 1e-6) || !std::isfinite(length)) value.fail("has no direction");
   if (std::abs(length - 1.0) < 1e-12) return axis;

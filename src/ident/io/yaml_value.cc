@@ -34,8 +34,8 @@ std::string child_path(const std::string& parent, const std::string& key) {
 
 }  // namespace
 
-YamlValue::YamlValue(std::string file, std::string path, YAML::Node node)
-    : file_(std::move(file)), path_(std::move(path)), node_(std::move(node)) {}
+YamlValue::YamlValue(std::string file, std::string path, const YAML::Node& node)
+    : file_(std::move(file)), path_(std::move(path)), node_(node) {}
 
 long YamlValue::line() const { return node_.Mark().line + 1; }
 

@@ -14,7 +14,7 @@ namespace ident {
 /// A value in a YAML file and the way to it ("rotors[2].axis").
 class YamlValue {
  public:
-  YamlValue(std::string file, std::string path, YAML::Node node);
+  YamlValue(std::string file, std::string path, const YAML::Node& node);
 
   bool is_null() const { return node_.IsNull(); }
   bool is_map() const { return node_.IsMap(); }
