@@ -166,7 +166,7 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine)
 }
 
 VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double tolerance, int max_steps,
-                         int* steps, double* cost) {
+                         bool near, int* steps, double* cost) {
   const Theta& theta = smoother.theta();
   const int n = theta.size();
   VectorXd last;
@@ -178,6 +178,7 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
     samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
   problem.tolerance = tolerance / samples;  // the cost is about one a sample
   problem.max_steps = max_steps;
+  if (near) problem.initial_radius = 1e12;
   problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
     if (!theta.possible(u)) return false;
     if (last.size() == 0 || u != last) {
@@ -220,7 +221,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 1);
-  u = minimise_shared(*smoother, u, 1.0, kFirstSteps, &fit.steps);
+  u = minimise_shared(*smoother, u, 1.0, kFirstSteps, false, &fit.steps);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
@@ -242,12 +243,13 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     if (step.fall < kNear && theta.possible(u + step.du))
       u += step.du;
     else
-      u = minimise_shared(*smoother, u, 0.1, 1, &fit.steps);
+      u = minimise_shared(*smoother, u, 0.1, 1, true, &fit.steps);
   }
-  u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), 30, &fit.steps, &fit.cost);
+  u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), 30, true, &fit.steps,
+                      &fit.cost);
   if (options.tolerance < kSinglePrecision) {
     smoother->set_exact(true);
-    u = minimise_shared(*smoother, u, options.tolerance, 30, &fit.steps, &fit.cost);
+    u = minimise_shared(*smoother, u, options.tolerance, 30, true, &fit.steps, &fit.cost);
   }
   // Where links let next to no noise through, the rounding of single precision would pass for information.
   smoother->set_exact(true);

@@ -48,8 +48,10 @@ Eigen::VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
 Eigen::MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws);
 
 /// The shared unknowns alone, states and noise as they are: Ceres over `smoother` from `u`.
+/// `near` the minimum no trust region holds a step back: it would along directions that only priors
+/// determine, which are weak beside those that the flight does.
 Eigen::VectorXd minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& u, double tolerance,
-                                int max_steps, int* steps = nullptr, double* cost = nullptr);
+                                int max_steps, bool near, int* steps = nullptr, double* cost = nullptr);
 
 /// Levels of noise to start from: white noise from differences, a generous process noise.
 NoiseModel initial_noise(const FlightRecord& record);
