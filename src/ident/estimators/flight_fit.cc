@@ -20,6 +20,9 @@ constexpr double kSinglePrecision = 1e-4;
 // estimated.
 constexpr double kNear = 25.0;
 
+// At the end, with exact slopes, and the fall of the cost that is worth one of them.
+constexpr int kLastSteps = 12;
+constexpr double kWorthAStep = 0.01;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 
@@ -209,6 +212,44 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
   return best.u;
 }
 
+namespace {
+
+// Newton's steps with exact slopes, along directions that seemed known to single precision: moves `u` to
+// where no fall worth a step is left, gives the linearisation there, which is accepted.
+ReducedSystem last_steps(FlightSmoother& smoother, VectorXd& u, FlightFit& fit) {
+  const Theta& theta = smoother.theta();
+  const auto accepted = [&](const VectorXd& at) {
+    ReducedSystem system = smoother.linearize(at);
+    smoother.accept();
+    return system;
+  };
+  const auto total = [&](const ReducedSystem& system, const VectorXd& at) {
+    return system.cost + theta.prior(at).residual.squaredNorm();
+  };
+  ReducedSystem system = accepted(u);
+  double share = 1.0;  // of a step: a long one leaves the states behind
+  bool stands = true;
+  for (int i = 0; i < kLastSteps; ++i) {
+    const Newton step = newton_step(system, theta, u);
+    const VectorXd next = u + share * step.du;
+    if (!(share * step.fall > kWorthAStep) || !theta.possible(next)) break;
+    const ReducedSystem there = smoother.linearize(next);
+    ++fit.steps;
+    stands = total(there, next) < total(system, u);
+    if (!stands) {
+      share /= 2;
+      continue;
+    }
+    smoother.accept();
+    system = there, u = next, share = std::min(2 * share, 1.0);
+    fit.cost = total(system, u);
+  }
+  if (!stands) return accepted(u);
+  return system;
+}
+
+}  // namespace
+
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
   FlightFit fit;
   const auto tell = [&](double share) {
@@ -253,8 +294,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   }
   // Where links let next to no noise through, the rounding of single precision would pass for information.
   smoother->set_exact(true);
-  const ReducedSystem system = smoother->linearize(u);
-  smoother->accept();
+  const ReducedSystem system = last_steps(*smoother, u, fit);
   fit.u = u;
   fit.information = system.S;
   fit.noise = smoother->noise();

@@ -89,6 +89,15 @@ MatrixXd FlightSmoother::link_slope(std::size_t k) const {
   const VectorXd share = carried(k);
   MatrixXd E(n, n + shared());
   E.leftCols(n + m) = share.asDiagonal() * chunk::E(results_[k], record_->layout.size);
+  // The floor of unmeasured rotor speeds goes with km (link_weight), so what counts is the defect over km.
+  const auto& constants = theta_->constants();
+  const auto km = std::ranges::find(constants, static_cast<int>(param::km), &FreeConstant::index);
+  if (km != constants.end() && record_->layout.motors >= 0 && !record_->signals.rotor_speeds) {
+    const Index j = km - constants.begin();
+    const double relative = theta_->slope(trial_u_, static_cast<int>(j)) / theta_->p(trial_u_)[param::km];
+    E.col(n + j).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
+        relative * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
+  }
   // The process is what is left of the acceleration beyond the profile.
   if (!profiles_.empty()) E.rightCols(shared() - m) = profile(k + 1) - share.asDiagonal() * profile(k);
   return E;
@@ -119,9 +128,13 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
     }
   };
   wanders(layout.w_dot, air_of(k).w_dot), wanders(layout.v_dot, air_of(k).v_dot);
-  const double omega_m = theta_->p(trial_u_)[param::omega_m];
+  const std::vector<double> p = theta_->p(trial_u_);
+  const double omega_m = p[param::omega_m];
+  // Rotor speeds that nobody measured are known up to a scale, that of km. The floor goes with it: else less
+  // speed would mean more freedom, and the cost would fall with km.
+  const double speeds = p[param::km] / theta_->p(VectorXd::Zero(theta_->size()))[param::km];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
-    const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0);
+    const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0 * speeds);
     W[layout.motors + n] = 1.0 / f;
     W[layout.motors + layout.rotors + n] = 1.0 / (f * omega_m * omega_m);
   }

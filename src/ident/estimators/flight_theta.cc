@@ -151,8 +151,11 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
     c.name = info.name;
     c.index = info.index;
     c.start = p[static_cast<std::size_t>(info.index)];
-    const bool diagonal = info.index == param::Jxx || info.index == param::Jyy || info.index == param::Jzz;
-    c.positive = (info.kind == ParameterKind::positive || diagonal) && c.start > 0;
+    // Jp too, where its sign is not in question: without rotor speeds kT km^2, kQ km^2 and Jp km are known,
+    // and only in logarithms is what they leave open a straight line.
+    const bool inertia = info.index == param::Jxx || info.index == param::Jyy || info.index == param::Jzz ||
+                         (info.index == param::Jp && vehicle.signs != Signs::as_published);
+    c.positive = (info.kind == ParameterKind::positive || inertia) && c.start > 0;
     c.scale = typical_scale(info.index, vehicle, p);
     const auto known = vehicle.parameters.find(info.name);
     if (known != vehicle.parameters.end() && known->second.std && *known->second.std > 0) {
