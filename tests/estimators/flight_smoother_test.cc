@@ -38,5 +38,35 @@ TEST(FlightSmoother, ConstantProfileTakesUpTheMomentOfAnOffCentreMass) {
   EXPECT_NEAR(step[theta.size()], expected, 0.1 * expected);
 }
 
+// Without rotor speeds only kT km^2, kQ km^2 and Jp km can be known: along what they leave open neither the
+// cost nor its gradient may change, whatever the motors' states take up of the noise.
+TEST(FlightSmoother, UnmeasuredRotorSpeedsAreFreeOfScale) {
+  Vehicle vehicle = testing::published_vehicle();
+  for (const char* name : {"kT", "kQ", "km", "Jp"})
+    vehicle.parameters[name] = {vehicle.value(name), 0.1 * vehicle.value(name)};
+  SimulationOptions options;
+  options.duration = 8.0;
+  options.rate = 100.0;
+  options.signals.rotor_speeds = 0;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta theta(p, free_constants(vehicle, p), 1, true);
+  NoiseModel noise = initial_noise(record);
+  for (std::size_t i = 0; i < 3; ++i) noise.air[0].w_dot[i].sigma = noise.air[0].v_dot[i].sigma = 0;
+  FlightSmoother smoother(record, theta, noise, 0.2);
+  smoother.set_exact(true);
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(theta.size());
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const std::string name = theta.name(i);
+    along[i] = name == "km" ? 1.0 : name == "Jp" ? -1.0 : name == "kT" || name == "kQ" ? -2.0 : 0.0;
+  }
+  smoother.settle(Eigen::VectorXd::Zero(theta.size()), 6);
+  const double here = smoother.reduced().cost, slope = 2 * smoother.reduced().g.dot(along);
+  EXPECT_NEAR(slope, 0.0, 0.05);
+  smoother.settle(-0.1 * along, 8);
+  EXPECT_NEAR(smoother.reduced().cost, here, 0.005);
+}
+
 }  // namespace
 }  // namespace ident

@@ -1,0 +1,78 @@
+// The noise that a fit starts from, what the residuals say of it, and how short chunks have to be for it.
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/flight_fit.h"
+
+namespace ident {
+namespace {
+
+double rms_rate_of(const FlightRecord& record, int channel) {
+  double sum = 0, n = 0;
+  for (const FlightArc& arc : record.arcs) {
+    double y0 = kNaN, t0 = 0;
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+      if (!std::isfinite(y)) continue;
+      if (!std::isfinite(y0)) y0 = y, t0 = arc.t[i];
+      if (arc.t[i] - t0 < 0.05) continue;
+      const double rate = (y - y0) / (arc.t[i] - t0);
+      sum += rate * rate, n += 1, y0 = y, t0 = arc.t[i];
+    }
+  }
+  return n > 0 ? std::sqrt(sum / n) : 0.0;
+}
+
+}  // namespace
+
+NoiseModel initial_noise(const FlightRecord& record) {
+  NoiseModel noise;
+  noise.sigma = record.sigma;
+  double w = 0, v = 0;
+  for (int k = 0; k < 3; ++k) {
+    w = std::max(w, rms_rate_of(record, kGyro + k));
+    v = std::max(v, rms_rate_of(record, kVelocity + k));
+  }
+  if (v == 0) v = 2.0;
+  if (w == 0) w = 5.0;
+  AirNoise air;
+  air.w_dot.fill({0.2 * w, 0.1});
+  air.v_dot.fill({0.1 * v, 0.5});
+  noise.air.assign(static_cast<std::size_t>(record.logs), air);
+  noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
+  return noise;
+}
+
+double update_noise(FlightSmoother& smoother, int rounds) {
+  const double change = smoother.retune(rounds);
+  const Moments m = smoother.moments();
+  NoiseModel noise = smoother.noise();
+  double white = 0;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    const double free = m.count[c] - m.leverage[c];
+    if (m.count[c] < 8 || free < 0.02 * m.count[c]) continue;
+    const double factor = std::clamp(m.square[c] / free, 0.05, 20.0);
+    noise.sigma[c] = std::max(noise.sigma[c] * std::sqrt(factor), 1e-10);
+    white = std::max(white, std::abs(std::sqrt(factor) - 1));
+  }
+  smoother.set_noise(noise);
+  return std::max(0.3 * change, white);
+}
+
+double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {
+  // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
+  // the velocity by h/4 of that. This may reach half the noise of one sample; or, since all rows of the chunk
+  // share the error, a quarter of the noise of their mean.
+  double h = 0.25;
+  const auto shorten = [&](std::size_t channel, const std::array<ColouredNoise, 3>& process) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (record.sigma[channel + i] == 1.0 || !(process[i].sigma > 0)) continue;  // 1: not measured
+      const double ratio = noise.sigma[channel + i] * std::sqrt(process[i].tau / 2) / process[i].sigma;
+      h = std::min(h, fine ? std::sqrt(ratio * std::sqrt(record.interval)) : std::pow(2 * ratio, 2.0 / 3.0));
+    }
+  };
+  for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
+  return std::clamp(h, std::max(4.0 * record.interval, 0.03), 0.25);
+}
+
+}  // namespace ident
