@@ -77,6 +77,21 @@ TEST(Diagnosis, ALookAlikeIsNotNamedWhenTheCauseItselfMayNotBe) {
   EXPECT_EQ(verdict["status"], "unknown") << verdict["sentence"];
 }
 
+// Stated ten times too fast, and with confidence, a motor bends every other constant before it moves itself.
+TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
+  Vehicle model = published();
+  const FlightLog log = flight_of(model, 6);
+  const double truth = model.value("omega_m");
+  model.parameters.at("omega_m") = {10 * truth, 0.5 * truth};
+  for (const char* name : {"zeta_m", "km", "kT", "kQ", "Jxx", "Jyy", "Jzz"})
+    model.parameters.at(name).std = 0.1 * model.value(name);
+  const std::vector<FlightLog> logs{log};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"parameter:omega_m"}))
+      << found.result.extra["verdict"];
+  EXPECT_NEAR(found.adopted.parameters.at("omega_m").value, truth, 0.1 * truth);
+}
+
 // A payload too light to be weighed shows as a shifted centre of gravity only: both are named. Where the mass
 // is known well it is the payload.
 TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {

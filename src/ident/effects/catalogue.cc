@@ -29,6 +29,14 @@ const EffectEntry* find_effect(std::string_view name) {
   return at == entries().end() ? nullptr : &*at;
 }
 
+const EffectParameter* find_effect_parameter(std::string_view full_name) {
+  const std::size_t dot = full_name.find('.');
+  const EffectEntry* effect = find_effect(full_name.substr(0, dot));
+  if (!effect || dot == std::string_view::npos) return nullptr;
+  const auto at = std::ranges::find(effect->parameters, full_name.substr(dot + 1), &EffectParameter::name);
+  return at == effect->parameters.end() ? nullptr : &*at;
+}
+
 std::vector<double> null_parameters() {
   std::vector<double> p(static_cast<std::size_t>(kParameterCount));
   for (const ParameterInfo& info : all_parameters())

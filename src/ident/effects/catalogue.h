@@ -55,6 +55,8 @@ std::span<const EffectEntry> catalogue();
 const EffectEntry& entry(EffectId id);
 /// Entry of that name, or nullptr.
 const EffectEntry* find_effect(std::string_view name);
+/// Parameter of an effect by its full name (rotor_drag.kd), or nullptr.
+const EffectParameter* find_effect_parameter(std::string_view full_name);
 
 /// Null values of the effects and defaults of the base constants.
 std::vector<double> null_parameters();

@@ -19,7 +19,7 @@ struct ThrustCurve {
       .looks_like = "Fz depends on collective",
       .confused_with = "parameter:kT, battery_sag, axial_inflow",
       .split_by = "a thrust sweep on the bench, or vertical steps at different accelerations"};
-  static constexpr std::array parameters{EffectParameter{"c", "-", 0.0, Range::any, 0.05, 1.0}};
+  static constexpr std::array parameters{EffectParameter{"c", "-", 0.0, Range::any, 0.05, 0.4}};
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {

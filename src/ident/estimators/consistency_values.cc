@@ -48,18 +48,14 @@ nlohmann::ordered_json value_json(const std::string& name, const Known& known) {
 
 /// The sign that an effect's parameter has to have, and the size beyond which it is not physical.
 std::string effect_problem(const std::string& name, double v) {
-  const std::size_t dot = name.find('.');
-  const EffectEntry* effect = find_effect(name.substr(0, dot));
-  if (!effect) return "";
-  for (const EffectParameter& p : effect->parameters) {
-    if (p.name != name.substr(dot + 1)) continue;
-    const double distance = v - p.null_value;
-    if (p.range == Range::positive && distance < 0.0)
-      return fmt::format("has the wrong sign: it is at least {}", format_number(p.null_value));
-    if (std::fabs(distance) > p.limit)
-      return fmt::format("is farther than {} from {}, which no vehicle has", format_number(p.limit),
-                         format_number(p.null_value));
-  }
+  const EffectParameter* p = find_effect_parameter(name);
+  if (!p) return "";
+  const double distance = v - p->null_value;
+  if (p->range == Range::positive && distance < 0.0)
+    return fmt::format("has the wrong sign: it is at least {}", format_number(p->null_value));
+  if (std::fabs(distance) > p->limit)
+    return fmt::format("is farther than {} from {}, which no vehicle has", format_number(p->limit),
+                       format_number(p->null_value));
   return "";
 }
 

@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/estimators/flight_streams.h"
 
 namespace ident {
 namespace {
@@ -61,6 +62,8 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> logs
   FlightEntry entry;
   entry.p = starting_constants(vehicle, logs, result.warnings);
   entry.record = make_flight_record(vehicle, entry.p, logs);
+  const std::vector<FlightLog> aligned = aligned_streams(entry.record, logs, vehicle.g, result.warnings);
+  if (!aligned.empty()) entry.record = make_flight_record(vehicle, entry.p, aligned);
   for (const FlightLog& log : logs) {
     result.inputs.push_back(log.file);
     tell(log.warnings);

@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "ident/estimators/flight_changes.h"
+#include "ident/estimators/flight_motion.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/statistics.h"
 
@@ -62,62 +63,25 @@ Track3 changes_of(const Track3& x, const ChangeWindows& windows, long shift) {
   return {changes(x[0], windows, shift), changes(x[1], windows, shift), changes(x[2], windows, shift)};
 }
 
-/// Rows of a vector quantity of the arc as three tracks.
-template <class Value>
-Track3 tracks(const FlightArc& arc, Value value) {
-  Track3 out;
-  for (std::size_t i = 0; i < arc.rows(); ++i) {
-    const Eigen::Vector3d v = value(i);
-    for (std::size_t k = 0; k < 3; ++k) out[k].push_back(v[static_cast<Eigen::Index>(k)]);
-  }
-  return out;
-}
-
-Track3 integrals(const FlightArc& arc, const Track3& y) {
-  return {integral(arc.t, y[0]), integral(arc.t, y[1]), integral(arc.t, y[2])};
-}
-
-Track3 forces(const FlightArc& arc) {
-  Track3 f;
-  for (std::size_t k = 0; k < 3; ++k) {
-    f[k] = channel_track(arc, kForce + static_cast<int>(k));
-    if (f[k].empty()) f[k].assign(arc.rows(), 0.0);
-  }
-  return f;
-}
-
 Eigen::Vector3d at(const Track3& x, std::size_t i) { return {x[0][i], x[1][i], x[2][i]}; }
 
 Pairs turns(const FlightArc& arc, const ChangeWindows& windows, long shift) {  // (1)
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Track3 turned = tracks(arc, [&](std::size_t i) {
-    if (i == 0) return sum;
-    const Vec4<double> d = quaternion_product(conjugate(arc.start[i - 1].body.q_WB), arc.start[i].body.q_WB);
-    sum += (d[0] < 0 ? -2.0 : 2.0) * d.tail<3>();
-    return sum;
-  });
-  const Track3 rates = tracks(arc, [&](std::size_t i) { return arc.start[i].body.w_B; });
-  return {changes_of(turned, windows, 0), changes_of(integrals(arc, rates), windows, shift)};
+  return {changes_of(turn_of_attitude(arc), windows, 0), changes_of(turn_of_rates(arc), windows, shift)};
 }
 
 Pairs velocities(const FlightArc& arc, const ChangeWindows& windows, long shift, double gravity) {  // (2)
-  const Track3 f = forces(arc);
-  const Track3 a_W = tracks(arc, [&](std::size_t i) {
-    return Eigen::Vector3d(rotation(arc.start[i].body.q_WB) * at(f, i) + gravity * Eigen::Vector3d::UnitZ());
-  });
-  const Track3 v = tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
-  return {changes_of(v, windows, 0), changes_of(integrals(arc, a_W), windows, shift)};
+  return {changes_of(velocity_W(arc), windows, 0),
+          changes_of(velocity_of_force(arc, gravity), windows, shift)};
 }
 
 Pairs positions(const FlightArc& arc, const ChangeWindows& windows, long shift) {  // (3)
-  const Track3 x = tracks(arc, [&](std::size_t i) { return arc.start[i].body.x_W; });
-  const Track3 v = tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
-  return {changes_of(x, windows, 0), changes_of(integrals(arc, v), windows, shift)};
+  return {changes_of(position_W(arc), windows, 0),
+          changes_of(integrals(arc, velocity_W(arc)), windows, shift)};
 }
 
 Pairs body_forces(const FlightArc& arc, const ChangeWindows& windows, long shift, double gravity) {  // (4)
-  const Track3 v = tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
-  Pairs out{changes_of(v, windows, 0), changes_of(integrals(arc, forces(arc)), windows, shift)};
+  Pairs out{changes_of(velocity_W(arc), windows, 0),
+            changes_of(integrals(arc, specific_force(arc)), windows, shift)};
   for (std::size_t j = 0; j < out.seen[0].size(); ++j) {
     const std::size_t from = windows.margin + j * windows.stride, to = from + windows.lag;
     const double seconds = arc.t[to] - arc.t[from];
@@ -183,7 +147,7 @@ void test_gravity(const FlightRecord& record, double gravity, std::vector<Warnin
   Track3 f;
   Track down;
   for (const FlightArc& arc : record.arcs) {
-    const Track3 one = forces(arc);
+    const Track3 one = specific_force(arc);
     append(f, one);
     for (std::size_t i = 0; i < arc.rows() && record.signals.attitude; ++i)
       down.push_back((rotation(arc.start[i].body.q_WB) * at(one, i))[2]);

@@ -63,6 +63,22 @@ MatrixXd features(const FlightRecord& record, const FlightSmoother& smoother, do
   return X;
 }
 
+// What is gained on parts of the flight that were left out, over the spread of what is missed there in units
+// of white noise: coloured residuals promise more than they hold.
+class HeldOutGain {
+ public:
+  /// A part: fall of the cost there, what the prediction misses along itself, and the variance that white
+  /// noise gives that.
+  void add(double fall, double missed, double variance) {
+    gain_ += fall;
+    if (variance > 0) spread_ += missed * missed / variance, parts_ += 1;
+  }
+  double honest() const { return gain_ / (parts_ > 0 ? std::max(spread_ / parts_, 1.0) : 1.0); }
+
+ private:
+  double gain_ = 0, spread_ = 0, parts_ = 0;
+};
+
 // Fall of the cost on the blocks of each fold, of unknowns fitted to the others, coefficients of about
 // `size`; beyond that of theta alone.
 double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& prior, double expected) {
@@ -79,7 +95,7 @@ double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& pr
     const Index n = x.size();
     return -2 * block.score.head(n).dot(x) - x.dot(block.information.topLeftCorner(n, n) * x);
   };
-  double gain = 0;
+  HeldOutGain gain;
   for (int fold = 0; fold < kFolds; ++fold) {
     const auto left_out = [&](std::size_t b) { return static_cast<int>(b / 2) % kFolds == fold; };
     MatrixXd F = MatrixXd::Zero(m, m);
@@ -87,10 +103,16 @@ double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& pr
     for (std::size_t b = 0; b < blocks.size(); ++b)
       if (!left_out(b)) F += blocks[b].information, g += blocks[b].score;
     const VectorXd all = solved(F, g, m), plain = solved(F, g, own);
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (left_out(b)) gain += fall(blocks[b], all) - fall(blocks[b], plain);
+    VectorXd further = all;  // what the features say beyond theta
+    further.head(own) -= plain;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (!left_out(b)) continue;
+      const VectorXd known = blocks[b].information * further;
+      const double missed = further.dot(blocks[b].score + blocks[b].information * all);
+      gain.add(fall(blocks[b], all) - fall(blocks[b], plain), missed, further.dot(known));
+    }
   }
-  return gain;
+  return gain.honest();
 }
 
 // The same for what a sensor shows beyond the model: weighted residuals of a channel, and how many, by chunk.
@@ -108,35 +130,45 @@ SensorResiduals residuals_of(const std::vector<std::vector<double>>& residuals, 
   return out;
 }
 
-// Fall of the cost on the chunks of each fold, of a regression on X fitted to the others.
-double held_out_gain(const SensorResiduals& r, const MatrixXd& X, const std::vector<int>& folds,
+// Fall of the cost on the chunks of each fold, of a regression on X fitted to the others; `parts` numbers
+// stretches of some seconds.
+double held_out_gain(const SensorResiduals& r, const MatrixXd& X, const std::vector<int>& parts,
                      double expected) {
-  double gain = 0;
+  HeldOutGain gain;
   for (int fold = 0; fold < kFolds; ++fold) {
     VectorXd fitted_count = r.count, left_count = r.count;
     VectorXd fitted_sum = r.sum;
     for (Index k = 0; k < X.rows(); ++k) {
-      const bool left_out = folds[static_cast<std::size_t>(k)] == fold;
+      const bool left_out = parts[static_cast<std::size_t>(k)] % kFolds == fold;
       (left_out ? fitted_count : left_count)[k] = 0;
       if (left_out) fitted_sum[k] = 0;
     }
     MatrixXd H = X.transpose() * fitted_count.asDiagonal() * X;
     H.diagonal().array() += 1 / (expected * expected);
     const VectorXd predicted = X * Eigen::LDLT<MatrixXd>(H).solve(X.transpose() * fitted_sum);
-    for (Index k = 0; k < X.rows(); ++k)
-      if (left_count[k] > 0) gain += predicted[k] * (2 * r.sum[k] - left_count[k] * predicted[k]);
+    double fall = 0, missed = 0, variance = 0;
+    for (Index k = 0; k < X.rows(); ++k) {
+      const double count = left_count[k], x = predicted[k];
+      fall += count > 0 ? x * (2 * r.sum[k] - count * x) : 0.0;
+      missed += count > 0 ? x * (r.sum[k] - count * x) : 0.0;
+      variance += count * x * x;
+      const auto part = [&](Index i) { return parts[static_cast<std::size_t>(i)]; };
+      if (k + 1 < X.rows() && part(k + 1) == part(k)) continue;
+      gain.add(fall, missed, variance);
+      fall = missed = variance = 0;
+    }
   }
-  return gain;
+  return gain.honest();
 }
 
 // What the sensors show beyond the model, channel by channel; a constant is one of the features.
 void add_sensors(Rival& rival, const FlightRecord& record, FlightSmoother& smoother, const MatrixXd& X) {
   MatrixXd with_constant(X.rows(), X.cols() + 1);
   with_constant << X, VectorXd::Ones(X.rows());
-  std::vector<int> folds;
+  std::vector<int> parts;
   for (const ChunkPlace& place : smoother.chunks()) {
     const double t = record.arcs[static_cast<std::size_t>(place.arc)].t[place.begin];
-    folds.push_back(static_cast<int>(std::abs(t) / 4.0) % kFolds);
+    parts.push_back(static_cast<int>(std::abs(t) / 4.0) + 1000 * place.arc);
   }
   const auto residuals = smoother.residuals();
   for (int channel = 0; channel < kRotorChannel + record.layout.rotors; ++channel) {
@@ -144,7 +176,7 @@ void add_sensors(Rival& rival, const FlightRecord& record, FlightSmoother& smoot
     if (r.count.sum() < 1000) continue;
     double best = -1e300;
     for (const double size : kSizes)
-      best = std::max(best, held_out_gain(r, with_constant, folds, 0.3 * size));
+      best = std::max(best, held_out_gain(r, with_constant, parts, 0.3 * size));
     rival.sensors.emplace_back(channel_name(channel), best);
   }
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ident/core/error.h"
+#include "ident/gap/wrong_constant.h"
 
 namespace ident {
 namespace {
@@ -15,25 +16,12 @@ constexpr double kOddsAgainst = 7.0;
 // A cause has to explain this much, in units of the noise, to be adopted: 1 % family-wise over the catalogue.
 constexpr double kLeastGain = 19.0;
 constexpr double kPerDirection = 4.0;
+// The third and further ones this share of what was found: what is left of causes of nearly the right form
+// gets names otherwise.
+constexpr int kOften = 2;
+constexpr double kMaterial = 0.04;
 // And this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
-
-FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
-                   const FlightRecord& record, const std::vector<double>& p,
-                   const FlightFitOptions& options) {
-  FittedModel model;
-  model.constants = std::move(constants);
-  model.adopted = std::move(adopted);
-  std::vector<FreeConstant> freed = model.constants;
-  for (const Candidate& c : model.adopted)
-    if (c.parameter >= 0) {
-      FreeConstant& f = freed[static_cast<std::size_t>(c.parameter)];
-      f.prior_std = 100 * f.prior_std.value_or(std::abs(f.start));
-    }
-  model.theta = std::make_shared<Theta>(p, freed, record.logs, record.signals.rates);
-  model.fit = fit_flight(record, *model.theta, options);
-  return model;
-}
 
 // `stretch` is common to all sets that are compared: a rival must not win because its own residual happens to
 // be whiter.
@@ -48,6 +36,13 @@ double own_stretch(const QuadraticForm& form, const Candidate& c) {
 
 bool same(const Candidate& a, const Candidate& b) { return a.name == b.name && a.rotor == b.rotor; }
 
+// Where the quadratic form sends a constant, from far away too: what a positive one does to a flight often
+// goes with it or with its reciprocal (a lag with 1/omega_m), and neither changes sign.
+double sent(const FreeConstant& c, double step) {
+  if (!c.positive) return c.start + c.scale * step;
+  return step > 0 ? c.start * (1 + step) : c.start / (1 - step);
+}
+
 // The model with one more cause: its constants at their fitted values, the new ones at the step of the
 // quadratic form.
 FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const SearchResult& at_now,
@@ -59,6 +54,10 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   const std::vector<double> at = at_now.best.theta->p(at_now.best.fit.u);
   std::vector<FreeConstant> constants = at_now.best.constants;
   for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
+  if (cause.parameter >= 0) {
+    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
+    c.start = sent(c, set.step[cause.parameter]);
+  }
   for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
     if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
     for (const int i : cause.directions) {
@@ -84,7 +83,13 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   again.chunk_seconds =
       std::min(at_now.best.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
   again.estimate_noise = false;
-  return fitted(constants, adopted, record, at, again);
+  FittedModel model = fitted(constants, adopted, record, at, again);
+  if (cause.parameter >= 0 && !stands(model)) {  // it was sent too far
+    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
+    c.start = at[static_cast<std::size_t>(c.index)];
+    model = fitted(constants, adopted, record, at, again);
+  }
+  return model;
 }
 
 std::vector<int> places_of(const std::vector<Candidate>& adopted, const ExtendedProblem& problem) {
@@ -93,6 +98,20 @@ std::vector<int> places_of(const std::vector<Candidate>& adopted, const Extended
     if (std::ranges::any_of(adopted, [&](const Candidate& a) { return same(a, problem.candidates[c]); }))
       places.push_back(static_cast<int>(c));
   return places;
+}
+
+// The constants as stated, with what was adopted at its found values.
+std::vector<double> as_stated(const FittedModel& model, std::vector<double> p) {
+  const std::vector<double> found = model.theta->p(model.fit.u);
+  for (const FreeConstant& c : model.constants)
+    if (c.adopted) p[static_cast<std::size_t>(c.index)] = found[static_cast<std::size_t>(c.index)];
+  for (const Candidate& c : model.adopted)
+    if (c.parameter >= 0) {
+      const auto index =
+          static_cast<std::size_t>(model.constants[static_cast<std::size_t>(c.parameter)].index);
+      p[index] = found[index];
+    }
+  return p;
 }
 
 // What a further cause gains where everything stands linearised.
@@ -156,9 +175,6 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
                                options.exclude);
     return linearise_everything(record, model.fit, *model.theta, problem);
   };
-  const auto stands = [](const FittedModel& model) {
-    return model.fit.covariance.allFinite() && model.fit.information.allFinite();
-  };
   if (!stands(out.base))
     throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
   std::vector<Candidate> tried;  // and found no better where they act
@@ -168,6 +184,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     fell.push_back(cause);
     return true;
   };
+  int looked_for_wrong = -1;  // at this step already
   for (bool moved = true;;) {
     const auto step = static_cast<int>(out.steps.size());
     if (moved) {
@@ -196,6 +213,23 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       best = *std::ranges::max_element(passed, {},
                                        [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
     }
+    // A constant stated far off the truth has bent the others already.
+    if (step != looked_for_wrong) {
+      looked_for_wrong = step;
+      WrongConstant wrong =
+          wrong_constant(record, as_stated(out.best, p), out.best, out.problem, out.form, fit);
+      if (wrong.beyond || wrong.gain > std::max(best.gain, uneven.gain)) {
+        const Candidate cause = out.problem.candidates[static_cast<std::size_t>(wrong.candidate)];
+        ExtendedProblem problem;
+        const double honest = wrong.gain / own_stretch(everything_at(wrong.model, problem), cause);
+        if (wrong.beyond || honest > kLeastGain + kPerDirection) {
+          out.steps.push_back({described(cause), honest});
+          out.best = std::move(wrong.model);
+          moved = true;
+          continue;
+        }
+      }
+    }
     // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
     // where it acts.
     if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried.size() < 2) {
@@ -222,7 +256,9 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       }
       tried.push_back(cause);
     }
-    if (best.candidate < 0) break;
+    double found = 0;
+    for (const SearchStep& s : out.steps) found += s.gain;
+    if (best.candidate < 0 || (step >= kOften && best.honest() < kMaterial * found)) break;
     const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best.candidate)];
     tell(0.3 + 0.2 * step, described(chosen));
     FittedModel next = with_cause(record, vehicle, out, have, best.candidate, fit);

@@ -2,19 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 
+#include "ident/gap/fitted_model.h"
 #include "ident/gap/screen.h"
 
 namespace ident {
-
-/// A model with causes adopted, fitted.
-struct FittedModel {
-  std::vector<FreeConstant> constants;  ///< base, then those of adopted effects; priors as originally stated
-  std::vector<Candidate> adopted;
-  std::shared_ptr<Theta> theta;  ///< what was fitted: priors of adopted parameters dropped
-  FlightFit fit;
-};
 
 struct SearchStep {
   std::string name;
@@ -47,7 +39,7 @@ struct SearchResult {
 
 struct SearchOptions {
   std::vector<std::string> exclude;
-  int most_causes = 3;
+  int most_causes = 6;
   std::function<void(double, const std::string&)> progress;
 };
 

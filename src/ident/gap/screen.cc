@@ -204,6 +204,13 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     with = minimum(form, free, off, dropped, own - 1);
     with.price = std::max(with.price, price - kPricePerDirection);
   }
+  for (const int c : members)
+    for (const int i : problem.candidates[static_cast<std::size_t>(c)].directions) {
+      const FreeConstant& of = problem.constants[static_cast<std::size_t>(i)];
+      const double size = std::abs(of.scale * (with.step[i] - form.null[i]));
+      if (const EffectParameter* p = find_effect_parameter(of.name); p && size > p->limit)
+        out.physical = false;
+    }
   out.gain = with.drop - without.drop;
   out.step = with.step;
   out.price = with.price + kPricePerDirection * static_cast<double>(dropped.size());

@@ -41,7 +41,11 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::v
   double most = kContradicts;
   for (const Parameter& p : fitted) {
     const bool heard = p.from_flight && *p.from_flight > 0.05;
-    const auto is_it = [&](const Candidate& c) { return c.name == "parameter:" + p.name; };
+    const auto is_it = [&](const Candidate& c) {  // omega_m and zeta_m are one thing, the motors' lag
+      const bool lag = p.name == "omega_m" || p.name == "zeta_m";
+      return c.name == "parameter:" + p.name ||
+             (lag && (c.name == "parameter:omega_m" || c.name == "parameter:zeta_m"));
+    };
     if (!p.pull || !heard || !(std::abs(*p.pull) > most) || std::ranges::any_of(adopted, is_it)) continue;
     worst = &p, most = std::abs(*p.pull);
   }

@@ -1,0 +1,228 @@
+// The shift at which changes over short windows agree best, with its spread over parts of the flight.
+#include "ident/estimators/flight_streams.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/format_number.h"
+#include "ident/estimators/flight_motion.h"
+
+namespace ident {
+namespace {
+
+constexpr double kLag = 0.12;         ///< s of a window: short, for time to show
+constexpr double kShortTime = 0.03;   ///< s before and after over which an acceleration is taken
+constexpr int kParts = 8;             ///< of the flight, for the spread
+constexpr std::size_t kFewest = 200;  ///< windows to judge
+constexpr double kAlike = 0.8;        ///< correlation of an axis that says anything
+constexpr double kBeyondDoubt = 6.0;  ///< standard deviations
+constexpr double kShortest = 8e-3;    ///< s: turns about a lever arm look like some ms
+constexpr double kOfAnInterval = 0.3;
+
+std::size_t half_width(const FlightArc& arc) {
+  const double interval = (arc.t.back() - arc.t.front()) / static_cast<double>(arc.rows() - 1);
+  return static_cast<std::size_t>(std::max(1.0, std::round(kShortTime / std::max(interval, 1e-6))));
+}
+
+/// Sums from which correlations over any parts are made.
+struct Sums {
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+
+  void add(double x, double y) { n += 1, a += x, b += y, aa += x * x, bb += y * y, ab += x * y; }
+  Sums& operator+=(const Sums& s) {
+    n += s.n, a += s.a, b += s.b, aa += s.aa, bb += s.bb, ab += s.ab;
+    return *this;
+  }
+  double correlation() const {
+    const double x = aa - a * a / n, y = bb - b * b / n;
+    return n > 2 && x > 0 && y > 0 ? (ab - a * b / n) / std::sqrt(x * y) : 0.0;
+  }
+};
+using AxisParts = std::vector<std::array<Sums, kParts>>;
+
+/// Log-likelihood of a shift, of straight lines on the axes that agree.
+double likelihood(const AxisParts& axes, const std::vector<bool>& alike, int without) {
+  double sum = 0;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    if (!alike[k]) continue;
+    Sums all;
+    for (int part = 0; part < kParts; ++part)
+      if (part != without) all += axes[k][static_cast<std::size_t>(part)];
+    const double r = all.correlation();
+    sum -= 0.5 * all.n * std::log(1 - std::min(r * std::abs(r), 1 - 1e-12));
+  }
+  return sum;
+}
+
+/// The top of a parabola through the highest value and its neighbours, in steps; NaN at an end.
+double top_of(const std::vector<double>& y) {
+  const auto i = static_cast<std::size_t>(std::ranges::max_element(y) - y.begin());
+  if (i == 0 || i + 1 >= y.size()) return kNaN;
+  const double bend = y[i - 1] - 2 * y[i] + y[i + 1];
+  return static_cast<double>(i) + (bend < 0 ? 0.5 * (y[i - 1] - y[i + 1]) / bend : 0.0);
+}
+
+/// The running integral of the size of the acceleration less gravity, as the velocity shows it, m/s. Sizes do
+/// not ask for the attitude, which may be late itself.
+Track sum_of_acceleration(const FlightArc& arc, double gravity) {
+  const Track3 v = velocity_W(arc);
+  const std::size_t rows = arc.rows(), half = half_width(arc);
+  Track size(rows, gravity);
+  for (std::size_t i = half; i + half < rows; ++i) {
+    Eigen::Vector3d a(0, 0, -gravity);
+    for (std::size_t k = 0; k < 3; ++k)
+      a[static_cast<Eigen::Index>(k)] +=
+          (v[k][i + half] - v[k][i - half]) / (arc.t[i + half] - arc.t[i - half]);
+    size[i] = a.norm();
+  }
+  return integral(arc.t, size);
+}
+
+/// The same of the specific force, over the same short times.
+Track sum_of_force(const FlightArc& arc) {
+  const Track3 f = specific_force(arc);
+  const Track3 sums = integrals(arc, f);
+  const std::size_t rows = arc.rows(), half = half_width(arc);
+  Track size(rows, 0.0);
+  for (std::size_t i = half; i + half < rows; ++i) {
+    Eigen::Vector3d mean;
+    for (std::size_t k = 0; k < 3; ++k)
+      mean[static_cast<Eigen::Index>(k)] =
+          (sums[k][i + half] - sums[k][i - half]) / (arc.t[i + half] - arc.t[i - half]);
+    size[i] = mean.norm();
+  }
+  return integral(arc.t, size);
+}
+
+struct Sides {
+  std::vector<Track> seen, told;  ///< axes of running values whose changes should agree
+};
+
+/// How much later the told side is than the seen one.
+StreamOffset offset_of(const std::vector<Sides>& arcs, double interval) {
+  const ChangeWindows windows = change_windows(kLag, interval);
+  const long step = std::max<long>(1, static_cast<long>(windows.margin) / 15);
+  const long most = static_cast<long>(windows.margin) / step;
+  const std::size_t axes_seen = arcs.empty() ? 0 : arcs[0].seen.size();
+  std::vector<AxisParts> shifts(static_cast<std::size_t>(2 * most + 1), AxisParts(axes_seen));
+  std::size_t count = 0;
+  for (const Sides& arc : arcs)
+    count += arc.seen[0].size() > windows.margin ? changes(arc.seen[0], windows).size() : 0;
+  if (count < kFewest) return {};
+  for (std::size_t k = 0; k < axes_seen; ++k) {
+    std::size_t before = 0;
+    for (const Sides& arc : arcs) {
+      const Track seen = changes(arc.seen[k], windows);
+      for (long s = -most; s <= most; ++s) {
+        const Track told = changes(arc.told[k], windows, -s * step);
+        for (std::size_t j = 0; j < seen.size(); ++j)
+          shifts[static_cast<std::size_t>(s + most)][k][(before + j) * kParts / count].add(seen[j], told[j]);
+      }
+      before += seen.size();
+    }
+  }
+  std::vector<bool> alike(axes_seen, false);
+  for (const AxisParts& axes : shifts)
+    for (std::size_t k = 0; k < axes_seen; ++k) {
+      Sums all;
+      for (const Sums& part : axes[k]) all += part;
+      if (all.correlation() > kAlike) alike[k] = true;
+    }
+  if (std::ranges::none_of(alike, [](bool x) { return x; })) return {};
+  const auto peak = [&](int without) {
+    std::vector<double> y;
+    for (const AxisParts& axes : shifts) y.push_back(likelihood(axes, alike, without));
+    return (top_of(y) - static_cast<double>(most)) * static_cast<double>(step) * interval;
+  };
+  double square = 0;  // jackknife
+  const double all = peak(-1);
+  for (int part = 0; part < kParts; ++part) square += std::pow(peak(part) - all, 2);
+  return {all, std::sqrt(square * (kParts - 1.0) / kParts)};
+}
+
+/// Samples of a column as they were `seconds` later, at the rows that had one.
+void read_later(const std::vector<double>& t, std::vector<double>& column, double seconds) {
+  std::vector<double> at, y;
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (std::isfinite(column[i])) at.push_back(t[i]), y.push_back(column[i]);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (!std::isfinite(column[i])) continue;
+    const double when = t[i] + seconds;
+    const auto after = static_cast<std::size_t>(std::ranges::upper_bound(at, when) - at.begin());
+    column[i] = kNaN;
+    if (after == 0 || after == at.size()) continue;
+    const double share = (when - at[after - 1]) / (at[after] - at[after - 1]);
+    column[i] = y[after - 1] + share * (y[after] - y[after - 1]);
+  }
+}
+
+void read_attitude_later(FlightLog& log, double seconds) {
+  std::array<double, 4> last{1, 0, 0, 0};
+  for (std::size_t i = 0; i < log.rows(); ++i) {  // q and -q are one attitude: no jump to interpolate over
+    double dot = 0;
+    for (std::size_t k = 0; k < 4; ++k) dot += last[k] * log.q_WB[k][i];
+    if (!std::isfinite(dot)) continue;
+    for (std::size_t k = 0; k < 4; ++k) last[k] = log.q_WB[k][i] *= dot < 0 ? -1.0 : 1.0;
+  }
+  for (auto& column : log.q_WB) read_later(log.t, column, seconds);
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double norm =
+        std::hypot(std::hypot(log.q_WB[0][i], log.q_WB[1][i]), std::hypot(log.q_WB[2][i], log.q_WB[3][i]));
+    for (auto& column : log.q_WB) column[i] /= norm;
+  }
+}
+
+}  // namespace
+
+bool StreamOffset::matters(double interval) const {
+  return std::abs(seconds) > kBeyondDoubt * std &&
+         std::abs(seconds) > std::max(kShortest, kOfAnInterval * interval);
+}
+
+StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
+  const Signals& s = record.signals;
+  std::vector<Sides> turns, forces;
+  for (const FlightArc& arc : record.arcs) {
+    if (arc.rows() < 2) continue;
+    const auto all = [](const Track3& x) { return std::vector<Track>(x.begin(), x.end()); };
+    if (s.rates && s.attitude) turns.push_back({all(turn_of_attitude(arc)), all(turn_of_rates(arc))});
+    if (s.force && s.velocity) forces.push_back({{sum_of_acceleration(arc, gravity)}, {sum_of_force(arc)}});
+  }
+  return {offset_of(turns, record.interval), offset_of(forces, record.interval)};
+}
+
+std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
+                                       double gravity, std::vector<Warning>& warnings) {
+  const StreamOffsets found = stream_offsets(record, gravity);
+  const StreamOffset motion{-found.rates.seconds, found.rates.std};
+  StreamOffset force = found.force;
+  const bool move_motion = motion.matters(record.interval);
+  if (move_motion) force.seconds += motion.seconds;
+  const bool move_force = force.matters(record.interval);
+  if (!move_motion && !move_force) return {};
+  std::vector<FlightLog> out(logs.begin(), logs.end());
+  const auto tell = [&](const char* what, const char* against, const StreamOffset& o) {
+    warnings.push_back(
+        {"stream_offset",
+         fmt::format("{} the same motion {} ms (+- {}) {} than {}: read that much {}", what,
+                     format_number(1e3 * std::abs(o.seconds), 2), format_number(1e3 * o.std, 1),
+                     o.seconds > 0 ? "later" : "earlier", against, o.seconds > 0 ? "earlier" : "later")});
+  };
+  const auto later = [](FlightLog& log, auto& columns, double seconds) {
+    for (auto& column : columns) read_later(log.t, column, seconds);
+  };
+  if (move_motion) tell("attitude, velocity and position show", "the rates", motion);
+  if (move_force) tell("the specific force shows", "the velocity", force);
+  for (FlightLog& log : out) {
+    if (move_motion) {
+      read_attitude_later(log, motion.seconds);
+      later(log, log.v_W, motion.seconds), later(log, log.x_W, motion.seconds);
+    }
+    if (move_force) later(log, log.f_B, force.seconds);
+  }
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,29 @@
+// Frees wrong parameters of their priors, then the fit of any model.
+#include "ident/gap/fitted_model.h"
+
+#include <cmath>
+
+namespace ident {
+
+FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
+                   const FlightRecord& record, const std::vector<double>& p,
+                   const FlightFitOptions& options) {
+  FittedModel model;
+  model.constants = std::move(constants);
+  model.adopted = std::move(adopted);
+  std::vector<FreeConstant> freed = model.constants;
+  for (const Candidate& c : model.adopted)
+    if (c.parameter >= 0) {
+      FreeConstant& f = freed[static_cast<std::size_t>(c.parameter)];
+      f.prior_std = 100 * f.prior_std.value_or(std::abs(f.start));
+    }
+  model.theta = std::make_shared<Theta>(p, freed, record.logs, record.signals.rates);
+  model.fit = fit_flight(record, *model.theta, options);
+  return model;
+}
+
+bool stands(const FittedModel& model) {
+  return model.fit.covariance.allFinite() && model.fit.information.allFinite();
+}
+
+}  // namespace ident

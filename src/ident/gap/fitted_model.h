@@ -1,0 +1,27 @@
+// The model with the causes taken up so far, fitted to the logs.
+#pragma once
+
+#include <memory>
+
+#include "ident/estimators/flight_fit.h"
+#include "ident/gap/candidates.h"
+
+namespace ident {
+
+/// A model with causes adopted, fitted.
+struct FittedModel {
+  std::vector<FreeConstant> constants;  ///< base, then those of adopted effects; priors as originally stated
+  std::vector<Candidate> adopted;
+  std::shared_ptr<Theta> theta;  ///< what was fitted: priors of adopted parameters dropped
+  FlightFit fit;
+};
+
+/// `constants` with those of adopted effects, at their starting values; a wrong parameter among `adopted` is
+/// freed of what is stated of it.
+FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
+                   const FlightRecord& record, const std::vector<double>& p, const FlightFitOptions& options);
+
+/// Whether it could be simulated to the end and left a covariance.
+bool stands(const FittedModel& model);
+
+}  // namespace ident

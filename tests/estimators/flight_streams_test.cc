@@ -1,0 +1,97 @@
+// Streams of one log at different times are found, moved to one time, and nothing is moved that is not late.
+#include "ident/estimators/flight_streams.h"
+
+#include <gtest/gtest.h>
+
+#include "ident/estimators/flight_entry.h"
+#include "ident/io/read_flight_log.h"
+#include "ident/model/simulate.h"
+#include "support/random_vehicle.h"
+#include "support/real_data.h"
+
+namespace ident {
+namespace {
+
+constexpr double kRate = 200;
+
+FlightLog simulated(const Vehicle& vehicle, const std::string& scenario, std::uint64_t seed) {
+  SimulationOptions options;
+  options.scenario = scenario, options.duration = 25, options.seed = seed;
+  options.rate = kRate, options.longest_step = 0;
+  return simulate_flight(vehicle, options).log;
+}
+
+FlightRecord record_of(const Vehicle& vehicle, const std::vector<FlightLog>& logs) {
+  std::vector<Warning> assumed;
+  return make_flight_record(vehicle, starting_constants(vehicle, logs, assumed), logs);
+}
+
+/// The log with one of its streams `rows` late.
+void delay(std::vector<double>& column, std::size_t rows) {
+  for (std::size_t i = column.size(); i-- > 0;) column[i] = i >= rows ? column[i - rows] : kNaN;
+}
+
+TEST(FlightStreams, StreamsAtOneTimeAreLeftAlone) {
+  const std::array scenarios = {"mixed", "hover", "steps", "eight", "vertical", "yaw"};
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Vehicle vehicle = random_vehicle(seed);
+    if (seed % 3 == 1)  // turns about this arm are in the specific force
+      vehicle.parameters["imu_lever_arm.x"].value = 0.02, vehicle.parameters["imu_lever_arm.z"].value = -0.03;
+    if (seed % 3 == 2) vehicle.parameters["sensor_delay.tau"].value = 0.012;  // rates and attitude alike
+    const std::vector<FlightLog> logs{simulated(vehicle, scenarios[seed % scenarios.size()], seed)};
+    std::vector<Warning> warnings;
+    EXPECT_TRUE(aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings).empty())
+        << seed << ": " << (warnings.empty() ? "" : warnings[0].message);
+  }
+}
+
+TEST(FlightStreams, ALateStreamIsFoundAndMoved) {
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Vehicle vehicle = random_vehicle(seed);
+    FlightLog log = simulated(vehicle, "mixed", seed);
+    const std::size_t rows = 3 + seed % 5;
+    const bool force = seed % 2 == 0;
+    if (force)
+      for (auto& column : log.f_B) delay(column, rows);
+    else {
+      for (auto& column : log.q_WB) delay(column, rows);
+      for (auto& column : log.v_W) delay(column, rows);
+      for (auto& column : log.x_W) delay(column, rows);
+    }
+    const std::vector<FlightLog> logs{log};
+    const FlightRecord record = record_of(vehicle, logs);
+    const StreamOffsets found = stream_offsets(record, vehicle.g);
+    const StreamOffset& late = force ? found.force : found.rates;
+    const double truth = (force ? 1.0 : -1.0) * static_cast<double>(rows) / kRate;
+    if (!std::isfinite(late.std)) continue;
+    ++told;
+    EXPECT_NEAR(late.seconds, truth, 3e-3) << seed << " +- " << late.std;
+    std::vector<Warning> warnings;
+    const std::vector<FlightLog> aligned = aligned_streams(record, logs, vehicle.g, warnings);
+    ASSERT_EQ(aligned.size(), 1) << seed;
+    ASSERT_EQ(warnings.size(), 1) << seed;
+    EXPECT_EQ(warnings[0].code, "stream_offset");
+    const StreamOffsets after = stream_offsets(record_of(vehicle, aligned), vehicle.g);
+    EXPECT_LT(std::abs((force ? after.force : after.rates).seconds), 1e-3) << seed;
+  }
+  EXPECT_GE(told, 10);
+}
+
+TEST(FlightStreams, ARealAccelerometerIsLaterThanMotionCapture) {
+  IDENT_NEEDS_REAL_DATA(folder);
+  Vehicle vehicle;
+  vehicle.rotors = layout_rotors("x", 0.046, 0.0);
+  vehicle.parameters["m"].value = 0.035;
+  std::vector<FlightLog> logs;
+  for (const char* name : {"B3_figure8_fast_rep1", "B6_linear_ramp_rep3", "B9_trefoil_medium_rep4"})
+    logs.push_back(
+        read_flight_log(folder + "/flight/nanobench/" + name + ".csv", vehicle,
+                        read_log_map(std::string(IDENT_SOURCE_DIR) + "/data/maps/nanobench_crazyflie.yaml")));
+  const StreamOffsets found = stream_offsets(record_of(vehicle, logs), vehicle.g);
+  EXPECT_NEAR(found.force.seconds, 0.023, 0.01) << "+- " << found.force.std;
+  EXPECT_NEAR(found.rates.seconds, 0.0, 0.008) << "+- " << found.rates.std;
+}
+
+}  // namespace
+}  // namespace ident
