@@ -26,6 +26,7 @@ bool needs_command_offset(const Vehicle& vehicle, const FlightRecord& record, co
   u.tail(biases) = fit.u.tail(biases);
   FlightSmoother smoother(record, wider, fit.noise, fit.chunk_seconds);
   smoother.set_states(fit.smoother->states());
+  smoother.set_exact(true);  // the offset may hide in what single precision rounds away
   FlightFit view;
   view.u = u;
   smoother.linearize(u);

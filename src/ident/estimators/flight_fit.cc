@@ -196,6 +196,11 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 1);
+  const auto restart = [&] {
+    smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
+    smoother->set_huber(options.robust ? kHuber : 1e9);
+    smoother->settle(u, 2);
+  };
   u = minimise_shared(*smoother, u, 1.0, kFirstSteps, false, &fit.steps);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
@@ -207,9 +212,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         options.chunk_seconds > 0 ? chunk : chunk_for(record, smoother->noise(), options.fine_gusts);
     if (round < 2 && (wanted > 1.5 * chunk || wanted < chunk / 1.5)) {
       chunk = wanted;
-      smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
-      smoother->set_huber(options.robust ? kHuber : 1e9);
-      smoother->settle(u, 2);
+      restart();
     }
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
     if (change < 0.03 || (round >= 5 && change < 0.3)) break;
@@ -220,6 +223,8 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     else
       u = minimise_shared(*smoother, u, 0.1, 1, true, &fit.steps);
   }
+  // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
+  if (!std::isfinite(smoother->linearize(u).cost)) restart();
   u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), 30, true, &fit.steps,
                       &fit.cost);
   if (options.tolerance < kSinglePrecision) {

@@ -114,6 +114,15 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, st
   return out;
 }
 
+// What sag is counted from where the vehicle file names no voltage: one for all logs, which share km.
+double highest_voltage(std::span<const FlightLog> logs) {
+  double highest = -1e300;
+  for (const FlightLog& log : logs)
+    for (const double v : log.vbat)
+      if (std::isfinite(v)) highest = std::max(highest, v);
+  return highest;
+}
+
 FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::size_t end,
                    const Vehicle& vehicle, double v0) {
   FlightArc arc;
@@ -177,15 +186,10 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     throw UsageError(
         fmt::format("{}: rotors: 1 to {} rotors are supported, not {}", vehicle.file, kMaxRotors, rotors));
   record.layout = layout_of(record.signals, rotors);
+  const double v0 = vehicle.battery_voltage.value_or(highest_voltage(logs));
   for (std::size_t n = 0; n < logs.size(); ++n) {
     const FlightLog& log = logs[n];
     if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");
-    double v0 = vehicle.battery_voltage.value_or(kNaN);
-    if (!std::isfinite(v0)) {
-      v0 = -1e300;
-      for (const double v : log.vbat)
-        if (std::isfinite(v)) v0 = std::max(v0, v);
-    }
     const std::vector<bool> fly = in_flight(log, record.warnings);
     const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
     for (const auto& [begin, end] : pieces(log, fly, options.longest_gap, history))

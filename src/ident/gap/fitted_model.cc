@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "ident/core/error.h"
+
 namespace ident {
 
 FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
@@ -18,12 +20,16 @@ FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> a
       f.prior_std = 100 * f.prior_std.value_or(std::abs(f.start));
     }
   model.theta = std::make_shared<Theta>(p, freed, record.logs, record.signals.rates);
-  model.fit = fit_flight(record, *model.theta, options);
+  try {
+    model.fit = fit_flight(record, *model.theta, options);
+  } catch (const DataError&) {  // it cannot be simulated: no model that stands
+  }
   return model;
 }
 
 bool stands(const FittedModel& model) {
-  return model.fit.covariance.allFinite() && model.fit.information.allFinite();
+  const FlightFit& fit = model.fit;
+  return fit.converged && fit.covariance.allFinite() && fit.information.allFinite();
 }
 
 }  // namespace ident

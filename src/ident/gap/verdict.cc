@@ -14,6 +14,7 @@ namespace {
 
 // A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
 constexpr double kMostlyClosed = 0.5;
+constexpr double kPerhapsClosed = 0.9;  // unless so much lies within the 95 % interval
 // A generic rival that gains this much on held-out flight has seen something, and that share of what the
 // causes explain is too much for a catalogue that should be enough.
 constexpr double kRivalGain = 45.0;
@@ -97,7 +98,8 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     }
     return out;
   }
-  const bool remains = std::isfinite(gap.closed) && gap.closed < kMostlyClosed;
+  const bool remains =
+      std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed);
   const bool better = rival.total() > std::max(kRivalBeside, kRivalShare * found);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (remains || better) {

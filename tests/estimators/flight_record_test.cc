@@ -1,0 +1,38 @@
+// What a record takes from several logs together.
+#include "ident/estimators/flight_record.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "ident/estimators/flight_entry.h"
+#include "ident/model/simulate.h"
+#include "support/random_vehicle.h"
+
+namespace ident {
+namespace {
+
+// km is one for all logs, and so is the voltage at which it holds: a flight begun on a half empty pack is a
+// sagged one.
+TEST(FlightRecord, SagIsCountedFromOneVoltageForAllLogs) {
+  Vehicle vehicle = random_vehicle(1);
+  vehicle.battery_voltage.reset();
+  SimulationOptions options;
+  options.duration = 3, options.rate = 100, options.longest_step = 0;
+  std::vector<FlightLog> logs(2, simulate_flight(vehicle, options).log);
+  logs[0].vbat.assign(logs[0].rows(), 12.0);
+  logs[1].vbat.assign(logs[1].rows(), 10.2);
+  std::vector<Warning> assumed;
+  const auto ratio = [&](const Vehicle& of, int log) {
+    const FlightRecord record = make_flight_record(of, starting_constants(of, logs, assumed), logs);
+    const auto arc = std::ranges::find(record.arcs, log, &FlightArc::log);
+    return arc->inputs->voltage_ratio.front();
+  };
+  EXPECT_DOUBLE_EQ(ratio(vehicle, 0), 1.0);
+  EXPECT_DOUBLE_EQ(ratio(vehicle, 1), 10.2 / 12.0);
+  vehicle.battery_voltage = 12.6;
+  EXPECT_DOUBLE_EQ(ratio(vehicle, 1), 10.2 / 12.6);
+}
+
+}  // namespace
+}  // namespace ident
