@@ -24,6 +24,7 @@ constexpr double kNear = 25.0;
 constexpr int kLastSteps = 12;
 constexpr double kWorthAStep = 0.01;
 // Steps before noise is estimated: what the model misses there would pass for noise.
+constexpr int kMostSteps = 30;
 constexpr int kFirstSteps = 4;
 
 using Eigen::MatrixXd;
@@ -201,7 +202,8 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     smoother->set_huber(options.robust ? kHuber : 1e9);
     smoother->settle(u, 2);
   };
-  u = minimise_shared(*smoother, u, 1.0, kFirstSteps, false, &fit.steps);
+  u = minimise_shared(*smoother, u, 1.0, options.estimate_noise ? kFirstSteps : kMostSteps, false,
+                      &fit.steps);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
@@ -225,11 +227,11 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   }
   // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
   if (!std::isfinite(smoother->linearize(u).cost)) restart();
-  u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), 30, true, &fit.steps,
-                      &fit.cost);
+  u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), kMostSteps, true,
+                      &fit.steps, &fit.cost);
   if (options.tolerance < kSinglePrecision) {
     smoother->set_exact(true);
-    u = minimise_shared(*smoother, u, options.tolerance, 30, true, &fit.steps, &fit.cost);
+    u = minimise_shared(*smoother, u, options.tolerance, kMostSteps, true, &fit.steps, &fit.cost);
   }
   // Where links let next to no noise through, the rounding of single precision would pass for information.
   smoother->set_exact(true);

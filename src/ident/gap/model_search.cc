@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "ident/core/error.h"
-#include "ident/gap/wrong_constant.h"
+#include "ident/gap/wrong_lag.h"
 
 namespace ident {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kPerDirection = 4.0;
 // gets names otherwise.
 constexpr int kOften = 2;
 constexpr double kMaterial = 0.04;
+constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found anew with the cause
 // And this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
 
@@ -79,10 +81,13 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   std::vector<Candidate> adopted = at_now.best.adopted;
   adopted.push_back(cause);
   FlightFitOptions again = options;
-  again.noise = at_now.form.noise;
+  // Under the noise that all causes together leave, one alone of several strong ones would bend the model:
+  // then what is missing still passes for gusts.
+  const bool strong = set.gain - gain_of(at_now.form, at_now.problem, have).gain > kStrong;
+  again.noise = strong ? at_now.best.fit.noise : at_now.form.noise;
+  again.estimate_noise = strong;
   again.chunk_seconds =
       std::min(at_now.best.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
-  again.estimate_noise = false;
   FittedModel model = fitted(constants, adopted, record, at, again);
   if (cause.parameter >= 0 && !stands(model)) {  // it was sent too far
     FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
@@ -184,14 +189,13 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     fell.push_back(cause);
     return true;
   };
-  int looked_for_wrong = -1;  // at this step already
   for (bool moved = true;;) {
     const auto step = static_cast<int>(out.steps.size());
-    if (moved) {
+    const bool moved_now = std::exchange(moved, false);
+    if (moved_now) {
       tell(0.2 + 0.2 * step, "every cause");
       out.form = everything_at(out.best, out.problem);
       if (step == 0) out.base_problem = out.problem, out.base_form = out.form;
-      moved = false;
     }
     if (step >= options.most_causes) break;
     const std::vector<int> have = places_of(out.best.adopted, out.problem);
@@ -213,22 +217,14 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       best = *std::ranges::max_element(passed, {},
                                        [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
     }
-    // A constant stated far off the truth has bent the others already.
-    if (step != looked_for_wrong) {
-      looked_for_wrong = step;
-      WrongConstant wrong =
-          wrong_constant(record, as_stated(out.best, p), out.best, out.problem, out.form, fit);
-      if (wrong.beyond || wrong.gain > std::max(best.gain, uneven.gain)) {
-        const Candidate cause = out.problem.candidates[static_cast<std::size_t>(wrong.candidate)];
-        ExtendedProblem problem;
-        const double honest = wrong.gain / own_stretch(everything_at(wrong.model, problem), cause);
-        if (wrong.beyond || honest > kLeastGain + kPerDirection) {
-          out.steps.push_back({described(cause), honest});
-          out.best = std::move(wrong.model);
-          moved = true;
-          continue;
-        }
-      }
+    if (auto lag = moved_now ? wrong_lag(record, as_stated(out.best, p), out.best, out.problem, out.form, fit)
+                             : std::nullopt) {
+      ExtendedProblem problem;
+      out.steps.push_back(
+          {described(lag->cause), lag->gain / own_stretch(everything_at(lag->model, problem), lag->cause)});
+      out.best = std::move(lag->model);
+      moved = true;
+      continue;
     }
     // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
     // where it acts.

@@ -1,0 +1,79 @@
+// A scan over omega_m, then the full fit from the best.
+#include "ident/gap/wrong_lag.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+constexpr double kPulledFar = 5.0;  // standard deviations
+constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
+constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
+
+double total_cost(FlightSmoother& smoother, const Theta& theta, const Eigen::VectorXd& u) {
+  const ReducedSystem& system = smoother.linearize(u);
+  return std::isfinite(system.cost) ? system.cost + theta.prior(u).residual.squaredNorm() : kNaN;
+}
+
+bool pulled_far(const FittedModel& model, int index) {
+  for (std::size_t i = 0; i < model.constants.size(); ++i) {
+    const FreeConstant& c = model.constants[i];
+    if (c.index != index || !c.prior_std) continue;
+    const double value = model.theta->physical(model.fit.u, static_cast<int>(i));
+    return std::abs(value - c.prior_value) > kPulledFar * *c.prior_std;
+  }
+  return false;
+}
+
+// The stated value times a factor at which the flight fits best with all else as stated; NaN where it flies
+// with none.
+double best_start(const FlightRecord& record, const std::vector<double>& p,
+                  const std::vector<FreeConstant>& constants, int which, const NoiseModel& noise,
+                  double chunk_seconds) {
+  double best = kNaN, least = 1e300;
+  for (const double factor : kFactors) {
+    std::vector<FreeConstant> there = constants;
+    FreeConstant& c = there[static_cast<std::size_t>(which)];
+    c.start *= factor, c.prior_std.reset();
+    const Theta theta(p, there, record.logs, record.signals.rates);
+    FlightSmoother smoother(record, theta, noise, chunk_seconds);
+    const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+    smoother.settle(u, 2);
+    const double cost = total_cost(smoother, theta, u);
+    if (cost < least) least = cost, best = c.start;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
+                                  const FittedModel& at_hand, const ExtendedProblem& problem,
+                                  const QuadraticForm& form, const FlightFitOptions& options) {
+  const auto cause = std::ranges::find(problem.candidates, "parameter:omega_m", &Candidate::name);
+  const auto adopted = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
+  if (cause == problem.candidates.end() || std::ranges::any_of(at_hand.adopted, adopted)) return {};
+  if (!pulled_far(at_hand, param::omega_m) && !pulled_far(at_hand, param::zeta_m)) return {};
+  FlightFitOptions again = options;
+  again.noise = form.noise, again.estimate_noise = false;
+  again.chunk_seconds = at_hand.fit.chunk_seconds;
+  std::vector<FreeConstant> constants = at_hand.constants;
+  for (FreeConstant& c : constants) c.start = p[static_cast<std::size_t>(c.index)];
+  FreeConstant& omega_m = constants[static_cast<std::size_t>(cause->parameter)];
+  omega_m.start = best_start(record, p, constants, cause->parameter, form.noise, again.chunk_seconds);
+  if (!std::isfinite(omega_m.start)) return {};
+  std::vector<Candidate> causes = at_hand.adopted;
+  causes.push_back(*cause);
+  WrongLag out{*cause, fitted(constants, causes, record, p, again)};
+  if (!stands(out.model)) return {};
+  FlightSmoother smoother(record, *at_hand.theta, form.noise, again.chunk_seconds);
+  smoother.set_states(at_hand.fit.smoother->states());
+  smoother.settle(at_hand.fit.u, 1);
+  out.gain = total_cost(smoother, *at_hand.theta, at_hand.fit.u) - out.model.fit.cost;
+  const double ratio = out.model.theta->physical(out.model.fit.u, cause->parameter) / omega_m.prior_value;
+  if (!(out.gain > 0) || std::max(ratio, 1 / ratio) < kNoPhysics) return {};
+  return out;
+}
+
+}  // namespace ident

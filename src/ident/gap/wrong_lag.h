@@ -1,0 +1,26 @@
+// The motors' lag, stated with confidence and far from the truth, bends every other constant before it moves:
+// from there no small step shows what is wrong. All other constants act on a flight in proportion.
+#pragma once
+
+#include <optional>
+
+#include "ident/gap/fitted_model.h"
+#include "ident/gap/screen.h"
+
+namespace ident {
+
+/// A model with omega_m free, all other constants back at what was stated before the fit.
+struct WrongLag {
+  Candidate cause;
+  FittedModel model;
+  double gain = 0.0;  ///< fall of the cost, priors included, below that of the model at hand
+};
+
+/// Where the model at hand pulls omega_m or zeta_m far off what was stated: the fit from the best of a wide
+/// range of omega_m, if it gains and ends so far off the stated value that no physics that the model lacks
+/// makes the difference. `p`: constants as stated, adopted effects at their found values.
+std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
+                                  const FittedModel& at_hand, const ExtendedProblem& problem,
+                                  const QuadraticForm& form, const FlightFitOptions& options);
+
+}  // namespace ident
