@@ -105,18 +105,16 @@ std::vector<int> places_of(const std::vector<Candidate>& adopted, const Extended
   return places;
 }
 
-// The constants as stated, with what was adopted at its found values.
-std::vector<double> as_stated(const FittedModel& model, std::vector<double> p) {
-  const std::vector<double> found = model.theta->p(model.fit.u);
-  for (const FreeConstant& c : model.constants)
-    if (c.adopted) p[static_cast<std::size_t>(c.index)] = found[static_cast<std::size_t>(c.index)];
-  for (const Candidate& c : model.adopted)
-    if (c.parameter >= 0) {
-      const auto index =
-          static_cast<std::size_t>(model.constants[static_cast<std::size_t>(c.parameter)].index);
-      p[index] = found[index];
-    }
-  return p;
+// The model as it is with the motors' lag where it was stated; its constants keep the priors that were
+// stated.
+FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
+                          const std::vector<double>& p, const FlightFitOptions& options) {
+  std::vector<FreeConstant> held = base;
+  for (FreeConstant& c : held)
+    if ((c.index == param::omega_m || c.index == param::zeta_m) && c.prior_std) *c.prior_std *= 0.03;
+  FittedModel model = fitted(held, {}, record, p, options);
+  model.constants = base;
+  return model;
 }
 
 // What a further cause gains where everything stands linearised.
@@ -174,7 +172,6 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
   std::vector<FreeConstant> base = free_constants(vehicle, p);
   if (!record.signals.commands) leave_out_motors(base);
   out.base = fitted(base, {}, record, p, fit);
-  out.best = out.base;
   const auto everything_at = [&](const FittedModel& model, ExtendedProblem& problem) {
     problem = extended_problem(vehicle, model.theta->p(model.fit.u), record.signals, model.constants,
                                options.exclude);
@@ -182,6 +179,20 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
   };
   if (!stands(out.base))
     throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
+  out.best = out.base;
+  if (lag_pulled_far(out.base)) {
+    tell(0.15, "the motors' lag");
+    out.base_form = everything_at(out.base, out.base_problem);
+    if (auto lag = wrong_lag(record, p, out.base, out.base_problem, out.base_form, fit)) {
+      out.steps.push_back({described(lag->cause), lag->gain / own_stretch(out.base_form, lag->cause)});
+      out.best = std::move(lag->model);
+    } else {
+      // Speeds that a missing cause puts off their commands make the motors seem slow, and then no cause that
+      // acts through the commands is seen: it is looked for at the lag stated.
+      FittedModel held = with_lag_held(base, record, p, fit);
+      if (stands(held)) out.best = out.base = std::move(held);
+    }
+  }
   std::vector<Candidate> tried;  // and found no better where they act
   std::vector<Candidate> fell;   // whose fit ran away
   const auto runs_away = [&](const FittedModel& model, const Candidate& cause) {
@@ -191,8 +202,7 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
   };
   for (bool moved = true;;) {
     const auto step = static_cast<int>(out.steps.size());
-    const bool moved_now = std::exchange(moved, false);
-    if (moved_now) {
+    if (std::exchange(moved, false)) {
       tell(0.2 + 0.2 * step, "every cause");
       out.form = everything_at(out.best, out.problem);
       if (step == 0) out.base_problem = out.problem, out.base_form = out.form;
@@ -216,15 +226,6 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       const double common = std::ranges::max_element(passed, {}, &Further::gain)->stretch;
       best = *std::ranges::max_element(passed, {},
                                        [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
-    }
-    if (auto lag = moved_now ? wrong_lag(record, as_stated(out.best, p), out.best, out.problem, out.form, fit)
-                             : std::nullopt) {
-      ExtendedProblem problem;
-      out.steps.push_back(
-          {described(lag->cause), lag->gain / own_stretch(everything_at(lag->model, problem), lag->cause)});
-      out.best = std::move(lag->model);
-      moved = true;
-      continue;
     }
     // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
     // where it acts.

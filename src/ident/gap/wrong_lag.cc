@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kPulledFar = 5.0;  // standard deviations
 constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
+constexpr double kSlowest = 2.0;    // rad/s: below it the commands no longer move the model's rotors
 constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
 
 double total_cost(FlightSmoother& smoother, const Theta& theta, const Eigen::VectorXd& u) {
@@ -48,13 +49,17 @@ double best_start(const FlightRecord& record, const std::vector<double>& p,
 
 }  // namespace
 
+bool lag_pulled_far(const FittedModel& model) {
+  return pulled_far(model, param::omega_m) || pulled_far(model, param::zeta_m);
+}
+
 std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
                                   const FittedModel& at_hand, const ExtendedProblem& problem,
                                   const QuadraticForm& form, const FlightFitOptions& options) {
   const auto cause = std::ranges::find(problem.candidates, "parameter:omega_m", &Candidate::name);
   const auto adopted = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
   if (cause == problem.candidates.end() || std::ranges::any_of(at_hand.adopted, adopted)) return {};
-  if (!pulled_far(at_hand, param::omega_m) && !pulled_far(at_hand, param::zeta_m)) return {};
+  if (!lag_pulled_far(at_hand)) return {};
   FlightFitOptions again = options;
   again.noise = form.noise, again.estimate_noise = false;
   again.chunk_seconds = at_hand.fit.chunk_seconds;
@@ -71,8 +76,9 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   smoother.set_states(at_hand.fit.smoother->states());
   smoother.settle(at_hand.fit.u, 1);
   out.gain = total_cost(smoother, *at_hand.theta, at_hand.fit.u) - out.model.fit.cost;
-  const double ratio = out.model.theta->physical(out.model.fit.u, cause->parameter) / omega_m.prior_value;
-  if (!(out.gain > 0) || std::max(ratio, 1 / ratio) < kNoPhysics) return {};
+  const double found = out.model.theta->physical(out.model.fit.u, cause->parameter),
+               ratio = found / omega_m.prior_value;
+  if (!(out.gain > 0) || found < kSlowest || std::max(ratio, 1 / ratio) < kNoPhysics) return {};
   return out;
 }
 

@@ -16,9 +16,12 @@ struct WrongLag {
   double gain = 0.0;  ///< fall of the cost, priors included, below that of the model at hand
 };
 
+/// Whether the flight pulls omega_m or zeta_m more than five standard deviations off what was stated.
+bool lag_pulled_far(const FittedModel& model);
+
 /// Where the model at hand pulls omega_m or zeta_m far off what was stated: the fit from the best of a wide
 /// range of omega_m, if it gains and ends so far off the stated value that no physics that the model lacks
-/// makes the difference. `p`: constants as stated, adopted effects at their found values.
+/// makes the difference. `p`: constants as stated.
 std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
                                   const FittedModel& at_hand, const ExtendedProblem& problem,
                                   const QuadraticForm& form, const FlightFitOptions& options);
