@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ident/core/error.h"
+#include "ident/gap/next_model.h"
 #include "ident/gap/wrong_lag.h"
 
 namespace ident {
@@ -21,7 +22,6 @@ constexpr double kPerDirection = 4.0;
 // gets names otherwise.
 constexpr int kOften = 2;
 constexpr double kMaterial = 0.04;
-constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found anew with the cause
 // And this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
 
@@ -38,83 +38,12 @@ double own_stretch(const QuadraticForm& form, const Candidate& c) {
 
 bool same(const Candidate& a, const Candidate& b) { return a.name == b.name && a.rotor == b.rotor; }
 
-// Where the quadratic form sends a constant, from far away too: what a positive one does to a flight often
-// goes with it or with its reciprocal (a lag with 1/omega_m), and neither changes sign.
-double sent(const FreeConstant& c, double step) {
-  if (!c.positive) return c.start + c.scale * step;
-  return step > 0 ? c.start * (1 + step) : c.start / (1 - step);
-}
-
-// The model with one more cause: its constants at their fitted values, the new ones at the step of the
-// quadratic form.
-FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const SearchResult& at_now,
-                       const std::vector<int>& have, int chosen, const FlightFitOptions& options) {
-  const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
-  std::vector<int> with = have;
-  with.push_back(chosen);
-  const SetGain set = gain_of(at_now.form, at_now.problem, with);
-  const std::vector<double> at = at_now.best.theta->p(at_now.best.fit.u);
-  std::vector<FreeConstant> constants = at_now.best.constants;
-  for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
-  if (cause.parameter >= 0) {
-    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
-    c.start = sent(c, set.step[cause.parameter]);
-  }
-  for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
-    if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
-    for (const int i : cause.directions) {
-      const FreeConstant& d = at_now.problem.constants[static_cast<std::size_t>(i)];
-      const double moved = d.start + d.scale * set.step[i];
-      if (d.name == c.name) c.start = moved;
-      if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
-          d.name.substr(9) == c.name.substr(7)) {
-        const double mass =
-            std::max(at_now.problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
-                         std::abs(set.step[cause.directions[0]]),
-                     1e-3 * at[param::m]);
-        c.start = std::clamp(moved * at[param::m] / mass, -0.3, 0.3);
-      }
-    }
-    c.adopted = true;
-    constants.push_back(c);
-  }
-  std::vector<Candidate> adopted = at_now.best.adopted;
-  adopted.push_back(cause);
-  FlightFitOptions again = options;
-  // Under the noise that all causes together leave, one alone of several strong ones would bend the model:
-  // then what is missing still passes for gusts.
-  const bool strong = set.gain - gain_of(at_now.form, at_now.problem, have).gain > kStrong;
-  again.noise = strong ? at_now.best.fit.noise : at_now.form.noise;
-  again.estimate_noise = strong;
-  again.chunk_seconds =
-      std::min(at_now.best.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
-  FittedModel model = fitted(constants, adopted, record, at, again);
-  if (cause.parameter >= 0 && !stands(model)) {  // it was sent too far
-    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
-    c.start = at[static_cast<std::size_t>(c.index)];
-    model = fitted(constants, adopted, record, at, again);
-  }
-  return model;
-}
-
 std::vector<int> places_of(const std::vector<Candidate>& adopted, const ExtendedProblem& problem) {
   std::vector<int> places;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c)
     if (std::ranges::any_of(adopted, [&](const Candidate& a) { return same(a, problem.candidates[c]); }))
       places.push_back(static_cast<int>(c));
   return places;
-}
-
-// The model as it is with the motors' lag where it was stated; its constants keep the priors that were
-// stated.
-FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
-                          const std::vector<double>& p, const FlightFitOptions& options) {
-  std::vector<FreeConstant> held = base;
-  for (FreeConstant& c : held)
-    if ((c.index == param::omega_m || c.index == param::zeta_m) && c.prior_std) *c.prior_std *= 0.03;
-  FittedModel model = fitted(held, {}, record, p, options);
-  model.constants = base;
-  return model;
 }
 
 // What a further cause gains where everything stands linearised.
@@ -232,7 +161,8 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried.size() < 2) {
       const Candidate cause = out.problem.candidates[static_cast<std::size_t>(uneven.candidate)];
       tell(0.25 + 0.2 * step, described(cause));
-      FittedModel trial = with_cause(record, vehicle, out, have, uneven.candidate, fit);
+      FittedModel trial =
+          with_cause(record, vehicle, {out.best, out.problem, out.form}, have, uneven.candidate, fit);
       if (runs_away(trial, cause)) continue;
       ExtendedProblem problem;
       const QuadraticForm form = everything_at(trial, problem);
@@ -258,7 +188,8 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     if (best.candidate < 0 || (step >= kOften && best.honest() < kMaterial * found)) break;
     const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best.candidate)];
     tell(0.3 + 0.2 * step, described(chosen));
-    FittedModel next = with_cause(record, vehicle, out, have, best.candidate, fit);
+    FittedModel next =
+        with_cause(record, vehicle, {out.best, out.problem, out.form}, have, best.candidate, fit);
     if (runs_away(next, chosen)) continue;
     out.steps.push_back({described(chosen), best.honest()});
     out.best = std::move(next);

@@ -39,7 +39,7 @@ struct SearchResult {
 
 struct SearchOptions {
   std::vector<std::string> exclude;
-  int most_causes = 6;
+  int most_causes = 3;
   std::function<void(double, const std::string&)> progress;
 };
 

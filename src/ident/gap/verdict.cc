@@ -23,6 +23,8 @@ constexpr double kRivalShare = 0.25;
 constexpr double kSure = 0.8;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
 constexpr double kContradicts = 5.0;
+constexpr double kOff =
+    2.0;  // and as many of the bench's own, which a flight that tells little need not reach
 
 // The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
 std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
@@ -47,7 +49,9 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::v
       return c.name == "parameter:" + p.name ||
              (lag && (c.name == "parameter:omega_m" || c.name == "parameter:zeta_m"));
     };
-    if (!p.pull || !heard || !(std::abs(*p.pull) > most) || std::ranges::any_of(adopted, is_it)) continue;
+    const bool off = p.prior_value && std::abs(p.value - *p.prior_value) > kOff * p.prior_std.value_or(1e300);
+    if (!p.pull || !heard || !off || !(std::abs(*p.pull) > most) || std::ranges::any_of(adopted, is_it))
+      continue;
     worst = &p, most = std::abs(*p.pull);
   }
   return worst;

@@ -1,0 +1,81 @@
+// Starting values and noise for the fit of a model with one more cause.
+#include "ident/gap/next_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found anew with the cause
+
+// Where the quadratic form sends a constant, from far away too: what a positive one does to a flight often
+// goes with it or with its reciprocal (a lag with 1/omega_m), and neither changes sign.
+double sent(const FreeConstant& c, double step) {
+  if (!c.positive) return c.start + c.scale * step;
+  return step > 0 ? c.start * (1 + step) : c.start / (1 - step);
+}
+
+}  // namespace
+
+FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
+                       const std::vector<int>& have, int chosen, const FlightFitOptions& options) {
+  const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
+  std::vector<int> with = have;
+  with.push_back(chosen);
+  const SetGain set = gain_of(at_now.form, at_now.problem, with);
+  const std::vector<double> at = at_now.model.theta->p(at_now.model.fit.u);
+  std::vector<FreeConstant> constants = at_now.model.constants;
+  for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
+  if (cause.parameter >= 0) {
+    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
+    c.start = sent(c, set.step[cause.parameter]);
+  }
+  for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
+    if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
+    for (const int i : cause.directions) {
+      const FreeConstant& d = at_now.problem.constants[static_cast<std::size_t>(i)];
+      const double moved = d.start + d.scale * set.step[i];
+      if (d.name == c.name) c.start = moved;
+      if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
+          d.name.substr(9) == c.name.substr(7)) {
+        const double mass =
+            std::max(at_now.problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
+                         std::abs(set.step[cause.directions[0]]),
+                     1e-3 * at[param::m]);
+        c.start = std::clamp(moved * at[param::m] / mass, -0.3, 0.3);
+      }
+    }
+    c.adopted = true;
+    constants.push_back(c);
+  }
+  std::vector<Candidate> adopted = at_now.model.adopted;
+  adopted.push_back(cause);
+  FlightFitOptions again = options;
+  // Under the noise that all causes together leave, one alone of several strong ones would bend the model:
+  // then what is missing still passes for gusts.
+  const bool strong = set.gain - gain_of(at_now.form, at_now.problem, have).gain > kStrong;
+  again.noise = strong ? at_now.model.fit.noise : at_now.form.noise;
+  again.estimate_noise = strong;
+  again.chunk_seconds =
+      std::min(at_now.model.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
+  FittedModel model = fitted(constants, adopted, record, at, again);
+  if (cause.parameter >= 0 && !stands(model)) {  // it was sent too far
+    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
+    c.start = at[static_cast<std::size_t>(c.index)];
+    model = fitted(constants, adopted, record, at, again);
+  }
+  return model;
+}
+
+FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
+                          const std::vector<double>& p, const FlightFitOptions& options) {
+  std::vector<FreeConstant> held = base;
+  for (FreeConstant& c : held)
+    if ((c.index == param::omega_m || c.index == param::zeta_m) && c.prior_std) *c.prior_std *= 0.03;
+  FittedModel model = fitted(held, {}, record, p, options);
+  model.constants = base;
+  return model;
+}
+
+}  // namespace ident
