@@ -23,8 +23,8 @@ constexpr double kNear = 25.0;
 // At the end, with exact slopes, and the fall of the cost that is worth one of them.
 constexpr int kLastSteps = 12;
 constexpr double kWorthAStep = 0.01;
-// Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kMostSteps = 30;
+// Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 
 using Eigen::MatrixXd;

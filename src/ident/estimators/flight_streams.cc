@@ -108,8 +108,7 @@ StreamOffset offset_of(const std::vector<Sides>& arcs, double interval) {
   const std::size_t axes_seen = arcs.empty() ? 0 : arcs[0].seen.size();
   std::vector<AxisParts> shifts(static_cast<std::size_t>(2 * most + 1), AxisParts(axes_seen));
   std::size_t count = 0;
-  for (const Sides& arc : arcs)
-    count += arc.seen[0].size() > windows.margin ? changes(arc.seen[0], windows).size() : 0;
+  for (const Sides& arc : arcs) count += changes(arc.seen[0], windows).size();
   if (count < kFewest) return {};
   for (std::size_t k = 0; k < axes_seen; ++k) {
     std::size_t before = 0;

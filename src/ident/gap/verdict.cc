@@ -23,8 +23,8 @@ constexpr double kRivalShare = 0.25;
 constexpr double kSure = 0.8;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
 constexpr double kContradicts = 5.0;
-constexpr double kOff =
-    2.0;  // and as many of the bench's own, which a flight that tells little need not reach
+// And as many of the bench's own, which a flight that tells little need not reach.
+constexpr double kOff = 2.0;
 
 // The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
 std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
