@@ -109,8 +109,8 @@ FastFit fit_fast(const Problem& problem, int threads, double tolerance, bool exa
   FastFit fit;
   const auto smoother = segments(problem, threads);
   smoother->set_exact(exact);
-  fit.u = minimise_shared(*smoother, Eigen::VectorXd::Zero(problem.theta->size()), tolerance, 50, false,
-                          &fit.steps, &fit.cost);
+  fit.u = minimise_shared(*smoother, Eigen::VectorXd::Zero(problem.theta->size()), tolerance, &fit.steps,
+                          &fit.cost);
   return fit;
 }
 

@@ -62,12 +62,12 @@ FlightState<S> resting() {
 }
 
 /// All that an effect can change: the state after some steps, the IMU's readings and the sensors' delay.
-template <class S>
+template <class S, class Effects = EffectSet<S>>
 std::vector<S> seen(const std::vector<S>& p, EffectMask mask, FlightState<S> x, int steps = 25) {
   const Vehicle vehicle = octocopter();
-  const EffectSet<S> effects(std::span<const S>(p), mask);
+  const Effects effects(std::span<const S>(p), mask);
   const FlightInputs in = inputs();
-  Flight<S, EffectSet<S>> flight(vehicle, std::span<const S>(p), effects, in);
+  Flight<S, Effects> flight(vehicle, std::span<const S>(p), effects, in);
   double t = 5.0013;  // not on a sample of the command, where the derivative by a delay has a step
   for (int i = 0; i < steps; ++i, t += 0.004) x = flight.step(x, t, 0.004, flight.rate(x, t));
   const SensorSeam<S> imu = flight.imu(x.body, flight.rate(x, t));
@@ -160,6 +160,23 @@ TEST_P(Effect, DualDerivativesEqualCentralDifferencesInMotionAndNearTheGround) {
           << e().parameters[i].name << " " << k;
     }
   }
+}
+
+// The same effects in a model that leaves nothing out.
+template <class S>
+struct Unabridged : EffectSet<S> {
+  using EffectSet<S>::EffectSet;
+  static constexpr unsigned touches() { return ~0U; }
+};
+
+TEST_P(Effect, TouchesNoMoreThanItSays) {
+  std::vector<double> p = null();
+  p[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] = 0.0;
+  for (std::size_t i = 0; i < e().parameters.size(); ++i) p[place(i)] += e().parameters[i].typical;
+  const auto said = seen(p, mask_of(e().id), moving<double>());
+  const auto all = seen<double, Unabridged<double>>(p, mask_of(e().id), moving<double>());
+  for (std::size_t i = 0; i < said.size(); ++i)
+    EXPECT_NEAR(said[i], all[i], 1e-12 * (1 + std::abs(all[i]))) << i;
 }
 
 TEST_P(Effect, HasFiniteDerivativesAtRestWithRotorsOff) {

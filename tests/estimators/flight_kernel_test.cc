@@ -204,10 +204,7 @@ Eigen::VectorXd apart(const FlightState<double>& a, const FlightState<double>& b
 }
 
 // Every direction of the start: what it does to the cost and to the end, against central differences.
-TEST(FlightKernel, SlopesOfTheStartAreThoseOfCostAndEnd) {
-  Setting s;
-  std::vector<double> constants;
-  ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants);
+void expect_true_slopes(ChunkTask task) {
   task.exact = true;
   task.x0.body.q_WB = Vec4<double>(0.9, 0.2, -0.3, 0.25).normalized();  // no axis is like another
   const FlightState<double> start = task.x0;
@@ -232,6 +229,31 @@ TEST(FlightKernel, SlopesOfTheStartAreThoseOfCostAndEnd) {
     for (int k = 0; k < layout.size; ++k)
       EXPECT_NEAR(exact.E[static_cast<std::size_t>(k * columns + i)], end[k], 1e-5 * (1 + end.norm()))
           << "end " << k << ", direction " << i;
+  }
+}
+
+TEST(FlightKernel, SlopesOfTheStartAreThoseOfCostAndEnd) {
+  Setting s;
+  std::vector<double> constants;
+  expect_true_slopes(s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants));
+}
+
+// Which columns need no dual numbers goes with what the effects touch.
+TEST(FlightKernel, SlopesOfTheStartHoldWithEveryEffect) {
+  Setting s;
+  std::vector<double> constants;
+  ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants);
+  const std::vector<double> plain = constants;
+  for (const EffectEntry& e : catalogue()) {
+    SCOPED_TRACE(e.info.name);
+    constants = plain;
+    constants[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] =
+        e.id == EffectId::wind ? 2e-5 : 0.0;  // wind acts through drag
+    for (std::size_t i = 0; i < e.parameters.size(); ++i)
+      constants[static_cast<std::size_t>(e.offset) + i] += e.parameters[i].typical;
+    task.p = constants;
+    task.active = active_effects(constants);
+    expect_true_slopes(task);
   }
 }
 

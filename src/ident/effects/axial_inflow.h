@@ -14,7 +14,7 @@ namespace ident {
 struct AxialInflow {
   static constexpr EffectInfo info{
       .name = "axial_inflow",
-      .touches = kTouchFlow,
+      .touches = kTouchFlow | kTouchRotor,
       .equation = "T_i -= kz Omega_i v_par",
       .looks_like = "Fz with climb rate; damping of roll and pitch rates",
       .confused_with = "motor lag (parameter:omega_m), blade_flapping, rate damping",
@@ -23,7 +23,7 @@ struct AxialInflow {
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {
-    seam.T -= p[0] * seam.Omega * dot(seam.v_air_B, seam.a_B);
+    seam.T -= p[0] * (seam.Omega * seam.along());
   }
 };
 

@@ -14,7 +14,7 @@ namespace ident {
 struct BladeFlapping {
   static constexpr EffectInfo info{
       .name = "blade_flapping",
-      .touches = kTouchFlow,
+      .touches = kTouchFlow | kTouchRotor | kTouchHub,
       .equation = "M_i = kf Omega_i (v_i x a_i)   at each hub",
       .looks_like = "My with v_x and Mx with v_y, in proportion to rotor speed",
       .confused_with = "cg height, rotor_drag with hubs off the centre, rate damping",

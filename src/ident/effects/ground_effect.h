@@ -14,7 +14,7 @@ namespace ident {
 
 struct GroundEffect {
   static constexpr EffectInfo info{.name = "ground_effect",
-                                   .touches = kTouchFlow,
+                                   .touches = kTouchRotor | kTouchHeight,
                                    .equation = "T/T_inf = 1/(1 - radius_sq/(16 z^2))",
                                    .looks_like = "Fz depends on height alone, below a few rotor radii",
                                    .confused_with = "translational_lift, parameter:kT, thrust_curve",

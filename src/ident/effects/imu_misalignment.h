@@ -14,7 +14,7 @@ namespace ident {
 struct ImuMisalignment {
   static constexpr EffectInfo info{
       .name = "imu_misalignment",
-      .touches = 0,
+      .touches = kTouchImuFrame,
       .equation = "shown = v - e x v + e x (e x v)/2   for rates and specific force",
       .looks_like = "part of one axis appears on another, in rates and specific force alike",
       .confused_with = "products_of_inertia, rotor_tilt, imu_bias",

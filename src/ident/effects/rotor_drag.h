@@ -14,7 +14,7 @@ namespace ident {
 struct RotorDrag {
   static constexpr EffectInfo info{
       .name = "rotor_drag",
-      .touches = kTouchFlow,
+      .touches = kTouchFlow | kTouchRotor | kTouchHub,
       .equation = "F_i = -kd Omega_i v_perp   at each hub",
       .looks_like = "Fx and Fy odd in velocity, growing with rotor speed; moments by the height of the hubs",
       .confused_with = "parasitic_drag, wind, blade_flapping",
@@ -25,8 +25,7 @@ struct RotorDrag {
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {
-    const Vec3<S> across = seam.v_air_B - dot(seam.v_air_B, seam.a_B) * seam.a_B;
-    seam.F_B -= (p[0] * seam.Omega) * across;
+    seam.F_B -= (p[0] * seam.Omega) * seam.across();
   }
 };
 

@@ -14,7 +14,7 @@ namespace ident {
 struct RotorMismatch {
   static constexpr EffectInfo info{
       .name = "rotor_mismatch",
-      .touches = kTouchFlow,
+      .touches = kTouchRotor,
       .equation = "kT_k, kQ_k = ratio@k (kT, kQ)",
       .looks_like = "follows one rotor in Fz, the moments and Mz together",
       .confused_with = "cg_offset, rotor_tilt, payload",

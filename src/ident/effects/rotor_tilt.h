@@ -14,7 +14,7 @@ namespace ident {
 struct RotorTilt {
   static constexpr EffectInfo info{
       .name = "rotor_tilt",
-      .touches = kTouchFlow,
+      .touches = kTouchRotor | kTouchAxis,
       .equation = "a -> a + e x a + e x (e x a)/2,   e = (x + x@k, y + y@k, 0)",
       .looks_like = "lateral force and Mz in step with the thrust of that rotor",
       .confused_with = "rotor_mismatch, cg_offset, imu_misalignment, parameter:kQ",

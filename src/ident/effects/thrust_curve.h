@@ -14,7 +14,7 @@ namespace ident {
 struct ThrustCurve {
   static constexpr EffectInfo info{
       .name = "thrust_curve",
-      .touches = kTouchFlow,
+      .touches = kTouchRotor,
       .equation = "T = kT Omega^2 (1 + c (Omega/Omega_hover - 1))",
       .looks_like = "Fz depends on collective",
       .confused_with = "parameter:kT, battery_sag, axial_inflow",

@@ -13,7 +13,7 @@ namespace ident {
 
 struct TranslationalLift {
   static constexpr EffectInfo info{.name = "translational_lift",
-                                   .touches = kTouchFlow,
+                                   .touches = kTouchFlow | kTouchRotor,
                                    .equation = "T_i += kh v_perp^2   along a_i",
                                    .looks_like = "Fz even in horizontal speed",
                                    .confused_with = "parameter:kT, thrust_curve, axial_inflow",
@@ -22,7 +22,7 @@ struct TranslationalLift {
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {
-    const S along = dot(seam.v_air_B, seam.a_B);
+    const S along = seam.along();
     seam.T += p[0] * (dot(seam.v_air_B, seam.v_air_B) - along * along);
   }
 };

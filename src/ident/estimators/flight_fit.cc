@@ -14,14 +14,13 @@ namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
-// Slopes in single precision leave the cost this far above its minimum.
-constexpr double kSinglePrecision = 1e-4;
-// A step that promises less than this fall of the cost is taken without looking back while noise is
-// estimated.
+// A step that promises less than this fall of the cost is near the minimum.
 constexpr double kNear = 25.0;
-
-// At the end, with exact slopes, and the fall of the cost that is worth one of them.
-constexpr int kLastSteps = 12;
+// There a step has to leave no more than this share of what was promised before it.
+constexpr double kShrinks = 0.7;
+// What is left where steps near the minimum lead nowhere, for a trust region to be worth its time.
+constexpr double kStuck = 1.0;
+// Fall of the cost that is worth a step with exact slopes.
 constexpr double kWorthAStep = 0.01;
 constexpr int kMostSteps = 30;
 // Steps before noise is estimated: what the model misses there would pass for noise.
@@ -103,8 +102,13 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
 
 }  // namespace
 
-VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double tolerance, int max_steps,
-                         bool near, int* steps, double* cost) {
+namespace {
+
+// Ceres' trust region over the shared unknowns, until a whole step promises less than `near` or nothing is
+// gained. `free` of a first radius: it would hold a step back along directions that only priors determine,
+// which are weak beside those that the flight does.
+VectorXd by_trust_region(FlightSmoother& smoother, const VectorXd& start, double tolerance, double near,
+                         int max_steps, bool free, int& steps, double& cost) {
   const Theta& theta = smoother.theta();
   const int n = theta.size();
   VectorXd last;
@@ -116,7 +120,7 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
     samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
   problem.tolerance = tolerance / samples;  // the cost is about one a sample
   problem.max_steps = max_steps;
-  if (near) problem.initial_radius = 1e12;
+  if (free) problem.initial_radius = 1e12;
   problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
     if (!theta.possible(u)) return false;
     if (last.size() == 0 || u != last) {
@@ -139,51 +143,66 @@ VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double
     }
     return true;
   };
+  problem.enough = [&] { return last.size() > 0 && newton_step(system, theta, last).fall < near; };
   const SteppedMinimum best = minimise_stepped(problem, start);
-  if (steps) *steps += best.steps;
-  if (cost) *cost = 2 * best.cost;
+  steps += best.steps;
+  cost = 2 * best.cost;
   if (!best.ok)
     throw DataError("the flight model cannot be simulated with these constants: check the vehicle file");
   return best.u;
 }
 
-namespace {
-
-// Newton's steps with exact slopes, along directions that seemed known to single precision: moves `u` to
-// where no fall worth a step is left, gives the linearisation there, which is accepted.
-ReducedSystem last_steps(FlightSmoother& smoother, VectorXd& u, FlightFit& fit) {
+// Newton's steps where they are near the minimum, until less than `enough` is promised: moves `u`, gives the
+// fall that is left. The smoother is linearised and accepted there.
+// It is this promise that judges a step. The cost is known only up to what the states gain by a step of their
+// own, and near the minimum that is more than the shared unknowns do.
+double newton_steps(FlightSmoother& smoother, VectorXd& u, double enough, int& steps, double& cost) {
   const Theta& theta = smoother.theta();
   const auto accepted = [&](const VectorXd& at) {
-    ReducedSystem system = smoother.linearize(at);
+    if (smoother.stands_at(at))
+      smoother.relinearize();
+    else
+      smoother.linearize(at);
     smoother.accept();
-    return system;
+    cost = smoother.reduced().cost + theta.prior(at).residual.squaredNorm();
+    return newton_step(smoother.reduced(), theta, at);
   };
-  const auto total = [&](const ReducedSystem& system, const VectorXd& at) {
-    return system.cost + theta.prior(at).residual.squaredNorm();
-  };
-  ReducedSystem system = accepted(u);
-  double share = 1.0;  // of a step: a long one leaves the states behind
-  bool stands = true;
-  for (int i = 0; i < kLastSteps; ++i) {
-    const Newton step = newton_step(system, theta, u);
-    const VectorXd next = u + share * step.du;
-    if (!(share * step.fall > kWorthAStep) || !theta.possible(next)) break;
-    const ReducedSystem there = smoother.linearize(next);
-    ++fit.steps;
-    stands = total(there, next) < total(system, u);
-    if (!stands) {
-      share /= 2;
-      continue;
+  Newton step = accepted(u);
+  for (int i = 0; i < kMostSteps && step.fall > enough && step.fall < kNear; ++i) {
+    const VectorXd next = u + step.du;
+    if (!theta.possible(next)) break;
+    smoother.linearize(next);
+    ++steps;
+    if (!(newton_step(smoother.reduced(), theta, next).fall < kShrinks * step.fall)) {
+      smoother.linearize(u);
+      return accepted(u).fall;
     }
-    smoother.accept();
-    system = there, u = next, share = std::min(2 * share, 1.0);
-    fit.cost = total(system, u);
+    step = accepted(next);
+    u = next;
   }
-  if (!stands) return accepted(u);
-  return system;
+  return step.fall;
 }
 
 }  // namespace
+
+VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double enough, int* steps,
+                         double* cost) {
+  VectorXd u = start;
+  int taken = 0;
+  double at = 0.0;
+  double left = newton_steps(smoother, u, enough, taken, at);
+  if (!(left < kNear)) {
+    u = by_trust_region(smoother, u, enough, kNear, kMostSteps, true, taken, at);
+    left = newton_steps(smoother, u, enough, taken, at);
+  }
+  if (!(left < std::max(enough, kStuck))) {
+    u = by_trust_region(smoother, u, enough, 0.0, kMostSteps, true, taken, at);
+    newton_steps(smoother, u, enough, taken, at);
+  }
+  if (steps) *steps += taken;
+  if (cost) *cost = at;
+  return u;
+}
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
   FlightFit fit;
@@ -202,8 +221,10 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     smoother->set_huber(options.robust ? kHuber : 1e9);
     smoother->settle(u, 2);
   };
-  u = minimise_shared(*smoother, u, 1.0, options.estimate_noise ? kFirstSteps : kMostSteps, false,
-                      &fit.steps);
+  if (options.estimate_noise)
+    u = by_trust_region(*smoother, u, 1.0, kWorthAStep, kFirstSteps, false, fit.steps, fit.cost);
+  else
+    u = by_trust_region(*smoother, u, 1.0, kNear, kMostSteps, false, fit.steps, fit.cost);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
@@ -223,19 +244,16 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     if (step.fall < kNear && theta.possible(u + step.du))
       u += step.du;
     else
-      u = minimise_shared(*smoother, u, 0.1, 1, true, &fit.steps);
+      u = by_trust_region(*smoother, u, 0.1, kWorthAStep, 1, true, fit.steps, fit.cost);
   }
   // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
   if (!std::isfinite(smoother->linearize(u).cost)) restart();
-  u = minimise_shared(*smoother, u, std::max(options.tolerance, kSinglePrecision), kMostSteps, true,
-                      &fit.steps, &fit.cost);
-  if (options.tolerance < kSinglePrecision) {
-    smoother->set_exact(true);
-    u = minimise_shared(*smoother, u, options.tolerance, kMostSteps, true, &fit.steps, &fit.cost);
-  }
-  // Where links let next to no noise through, the rounding of single precision would pass for information.
+  // Where links let next to no noise through, the rounding of single precision would pass for information:
+  // the last steps are exact.
+  u = minimise_shared(*smoother, u, std::max(options.tolerance, kWorthAStep), &fit.steps);
   smoother->set_exact(true);
-  const ReducedSystem system = last_steps(*smoother, u, fit);
+  u = minimise_shared(*smoother, u, std::min(options.tolerance, kWorthAStep), &fit.steps, &fit.cost);
+  const ReducedSystem system = smoother->reduced();
   fit.u = u;
   fit.information = system.S;
   fit.noise = smoother->noise();

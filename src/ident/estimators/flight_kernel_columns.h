@@ -2,6 +2,7 @@
 // start.
 #pragma once
 
+#include "ident/core/dual.h"
 #include "ident/estimators/flight_kernel.h"
 
 namespace ident {
@@ -38,9 +39,9 @@ struct KernelColumns {
       place[c.external].at = columns;
       column[columns++] = c;
     };
-    const bool plain = is_plain(task);
+    const unsigned touches = touched(task);
     for (int i = 0; i < layout.size; ++i)
-      if (kind_of(layout, plain, i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
+      if (kind_of(task, touches, i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
     for (const Seed& seed : task.seeds)
       if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
     // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
@@ -48,7 +49,7 @@ struct KernelColumns {
     dual_packs = task.exact ? 4 * ((columns + 31) / 32) : 2 * ((columns + 15) / 16);
     while (columns < 8 * dual_packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
     for (int i = 0; i < layout.size; ++i) {
-      const Kind kind = kind_of(layout, plain, i);
+      const Kind kind = kind_of(task, touches, i);
       const int first = kind == Kind::position ? layout.x : kind == Kind::velocity ? layout.v : layout.v_dot;
       if (kind != Kind::dual) add({i, i - first, kind, 1.0});
     }
@@ -60,23 +61,29 @@ struct KernelColumns {
   }
 
  private:
-  // Without drag or effects off their null values nothing depends on velocity and position, and nothing
-  // stands between an acceleration and the accelerometer.
-  static bool is_plain(const ChunkTask& task) {
-    for (const int drag : {int{param::Kdx}, int{param::Kdy}, int{param::Kdz}}) {
-      if (task.p.data()[drag] != 0) return false;
-      for (const Seed& seed : task.seeds)
-        if (seed.slot == drag) return false;
-    }
-    return task.active == 0;
+  // Where a chunk starts matters to nothing but the ground; how fast, to drag and what the flow touches; a
+  // push reaches the accelerometer as it is unless that is turned.
+  static Kind kind_of(const ChunkTask& task, unsigned touches, int i) {
+    const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
+    const StateLayout& layout = task.layout;
+    if ((touches & kTouchHeight) != 0) return Kind::dual;
+    if (within(layout.x)) return Kind::position;
+    if ((touches & kTouchFlow) != 0) return Kind::dual;
+    if (within(layout.v)) return Kind::velocity;
+    if (within(layout.v_dot) && (touches & kTouchImuFrame) == 0) return Kind::push;
+    return Kind::dual;
   }
 
-  static Kind kind_of(const StateLayout& layout, bool plain, int i) {
-    const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
-    if (plain && within(layout.x)) return Kind::position;
-    if (plain && within(layout.v)) return Kind::velocity;
-    if (plain && within(layout.v_dot)) return Kind::push;
-    return Kind::dual;
+  // What the model touches at this point; drag counts as flow.
+  static unsigned touched(const ChunkTask& task) {
+    using S = Dual<1, Isa, float>;  // of this instruction set
+    unsigned touches = EffectSet<S>(std::span<const S>(), task.active).touches();
+    for (const int drag : {int{param::Kdx}, int{param::Kdy}, int{param::Kdz}}) {
+      if (task.p.data()[drag] != 0) touches |= kTouchFlow;
+      for (const Seed& seed : task.seeds)
+        if (seed.slot == drag) touches |= kTouchFlow;
+    }
+    return touches;
   }
 };
 

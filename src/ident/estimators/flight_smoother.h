@@ -64,7 +64,7 @@ class FlightSmoother {
   const ReducedSystem& relinearize();
   /// What the last elimination left.
   const ReducedSystem& reduced() const { return reduced_; }
-  /// Whether the last linearisation is at u, and of the present sensor noise.
+  /// Whether the last linearisation is at u, of the present sensor noise and kind of slopes.
   bool stands_at(const Eigen::VectorXd& u) const { return stands_ && u == trial_u_; }
   /// Makes the last linearisation the one from which states are predicted from now on.
   void accept();
@@ -77,9 +77,9 @@ class FlightSmoother {
   /// Another noise model; the states stay.
   void set_noise(const NoiseModel& noise);
   /// Slopes in double precision, for a fit to the last digit of exact data.
-  void set_exact(bool exact) { exact_ = exact; }
+  void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
   /// Residuals beyond this many standard deviations count linearly.
-  void set_huber(double huber) { huber_ = huber; }
+  void set_huber(double huber) { stands_ = stands_ && huber == huber_, huber_ = huber; }
 
   /// Residual moments of the last linearisation, which was asked for leverages.
   Moments moments() const;

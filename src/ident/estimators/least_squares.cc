@@ -141,16 +141,18 @@ namespace {
 constexpr int kRejected =
     10;  // steps that may fail beyond those asked for: the trust region shrinks meanwhile
 
-/// Ends the search after a number of steps that were taken.
+/// Ends the search after a number of steps that were taken, or where the problem has had enough.
 class EnoughSteps : public ceres::IterationCallback {
  public:
-  explicit EnoughSteps(int steps) : left_(steps) {}
+  explicit EnoughSteps(const SteppedProblem& problem) : problem_(problem), left_(problem.max_steps) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (summary.iteration > 0 && summary.step_is_successful) --left_;
-    return left_ > 0 ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    const bool enough = left_ <= 0 || (summary.step_is_successful && problem_.enough && problem_.enough());
+    return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  const SteppedProblem& problem_;
   int left_;
 };
 
@@ -172,7 +174,7 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   options.gradient_tolerance = 1e-14;
   options.max_num_iterations = problem.max_steps + kRejected;
   options.logging_type = ceres::SILENT;
-  EnoughSteps enough(problem.max_steps);
+  EnoughSteps enough(problem);
   options.callbacks.push_back(&enough);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &minimisation, &summary);

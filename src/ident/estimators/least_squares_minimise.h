@@ -31,6 +31,7 @@ struct SteppedProblem {
   double tolerance = 1e-9;    ///< relative change of the cost
   int max_steps = 30;         ///< that are taken; some more may fail
   double initial_radius = 1e4;
+  std::function<bool()> enough;  ///< asked after each step that was taken; may be empty
 };
 
 struct SteppedMinimum {

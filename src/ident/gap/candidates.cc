@@ -109,7 +109,7 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
       for (const EffectParameter& q : e.parameters) names.push_back(name + "." + std::string(q.name));
       build.effect(name, names);
     } else {
-      if (flow && !moves && !is(EffectId::thrust_curve)) continue;
+      if (flow && !moves) continue;
       if (is(EffectId::sensor_delay) && !signals.rates && !signals.attitude) continue;
       std::vector<std::string> names;
       for (const EffectParameter& q : e.parameters) names.push_back(name + "." + std::string(q.name));

@@ -49,8 +49,7 @@ struct Wrench {
   Vec3<S> F_B, M_B;  ///< N, and N m about the origin; without gravity
 };
 
-/// What the rotors give where it does not depend on the body's motion: force, moment of thrust, drag and
-/// reaction, and sigma times their angular momentum.
+/// What the rotors give: force, moment of thrust, drag and reaction, and sigma times their angular momentum.
 template <class S>
 struct RotorSums {
   Vec3<S> F_B, M_B, h_B;
@@ -86,10 +85,10 @@ class Body {
     m_inverse_ = 1.0 / m_;
     diagonal_ =
         is_identically_zero(J_(0, 1)) && is_identically_zero(J_(0, 2)) && is_identically_zero(J_(1, 2));
-    plain_ = !linear_drag_ && (effects.touches() & kTouchFlow) == 0;
+    plain_ = !linear_drag_ && (effects.touches() & (kTouchFlow | kTouchHeight)) == 0;
     for (std::size_t k = 0; k < a_B_.size(); ++k) {
       const Rotor& rotor = vehicle.rotors[k];
-      for (int i = 0; i < 3; ++i) plain_ = plain_ && is_constant(a_B_[k][i]);
+      for (int i = 0; i < 3; ++i) fixed_axes_ = fixed_axes_ && is_constant(a_B_[k][i]);
       const Eigen::Vector3d a(value(a_B_[k][0]), value(a_B_[k][1]), value(a_B_[k][2]));
       const Eigen::Vector3d& r = rotor.r_B;
       arms_.push_back({a,
@@ -103,97 +102,33 @@ class Body {
   /// Equations (3) and (4) with the rotor and body seams; `R_WB` belongs to `state.q_WB`.
   Wrench<S> wrench(const BodyState<S>& state, const Mat3<S>& R_WB,
                    std::span<const MotorState<S>> motors) const {
+    if (plain_) return under(state, rotor_sums(motors));
     const S zero(0.0);
-    if (plain_) return plain_wrench(state, rotor_sums(motors));
-    Wrench<S> sum{Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
+    Around around{Vec3<S>(zero, zero, zero), &state, &R_WB};
     const bool flow = (effects_->touches() & kTouchFlow) != 0;
-    Vec3<S> v_air_B(zero, zero, zero);
-    if (flow || linear_drag_) v_air_B = turned_into_body(R_WB, Vec3<S>(state.v_W - air_.wind_W));
-    for (std::size_t n = 0; n < a_B_.size(); ++n) {
-      const Rotor& geometry = vehicle_->rotors[n];
-      const S& Omega = motors[n].Omega;
-      const S Omega2 = Omega * Omega;
-      const double s = geometry.s;
-      Vec3<S> a = a_B_[n], F;
-      S Q;
-      if (flow) {
-        RotorSeam<S> rotor{static_cast<int>(n),
-                           Omega_hover_,
-                           Omega,
-                           Vec3<S>(v_air_B + cross(state.w_B, geometry.r_B)),
-                           vehicle_->ground_z - (state.x_W[2] + R_WB(2, 0) * geometry.r_B[0] +
-                                                 R_WB(2, 1) * geometry.r_B[1] + R_WB(2, 2) * geometry.r_B[2]),
-                           a,
-                           p_[param::kT] * Omega2,
-                           p_[param::kQ] * Omega2,
-                           Vec3<S>(zero, zero, zero),
-                           Vec3<S>(zero, zero, zero)};
-        effects_->apply(rotor);
-        a = rotor.a_B;
-        F = rotor.T * a + rotor.F_B;  // (3)
-        sum.M_B += rotor.M_B;
-        Q = rotor.Q;
-      } else {
-        F = (p_[param::kT] * Omega2) * a;  // (3)
-        Q = p_[param::kQ] * Omega2;
-      }
-      sum.F_B += F;
-      sum.M_B += cross(geometry.r_B, F);  // (4)
-      if (spinning_) {
-        const double sigma = vehicle_->signs == Signs::first_principles ? 1.0 : -1.0;  // erratum 1
-        const S h = (sigma * s) * Jp_;
-        sum.M_B -= (s * Q + h * motors[n].Omega_dot) * a;  // (4)
-        sum.M_B -= (h * Omega) * cross(state.w_B, a);      // (4)
-      } else {
-        sum.M_B -= (s * Q) * a;  // (4)
-      }
-    }
+    if (flow) around.v_air_B = turned_into_body(R_WB, Vec3<S>(state.v_W - air_.wind_W));
+    Wrench<S> total = under(state, sums(motors, &around));
     if (flow) {
-      BodySeam<S> body{v_air_B, Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
+      BodySeam<S> body{around.v_air_B, Vec3<S>(zero, zero, zero), Vec3<S>(zero, zero, zero)};
       effects_->apply(body);
-      sum.F_B += body.F_B;
-      sum.M_B += body.M_B + cross(c_B_, body.F_B);
+      total.F_B += body.F_B;
+      total.M_B += body.M_B + cross(c_B_, body.F_B);
     }
     if (linear_drag_) {
       const Vec3<S> drag_W(-p_[param::Kdx] * state.v_W[0], -p_[param::Kdy] * state.v_W[1],
                            -p_[param::Kdz] * state.v_W[2]);
       const Vec3<S> drag_B = turned_into_body(R_WB, drag_W);
-      sum.F_B += drag_B;
-      sum.M_B += cross(c_B_, drag_B);
+      total.F_B += drag_B;
+      total.M_B += cross(c_B_, drag_B);
     }
-    return sum;
+    return total;
   }
 
-  /// Whether all axes are constants and nothing acts on the flow, so that `rotor_sums` is all of the rotors.
+  /// Whether what the rotors give does not depend on how the body moves, and nothing else acts on it.
   bool plain() const { return plain_; }
 
-  /// Equations (3) and (4) for a plain body but for the turning of the rotors' momentum: sums over the rotors
-  /// of Omega^2, s Omega^2, s Omega and s Omega' with constant vectors.
-  RotorSums<S> rotor_sums(std::span<const MotorState<S>> motors) const {
-    const S zero(0.0);
-    Vec3<S> F(zero, zero, zero), rF(zero, zero, zero), Q(zero, zero, zero), h(zero, zero, zero),
-        h_dot(zero, zero, zero);
-    const auto add = [](Vec3<S>& sum_B, const Eigen::Vector3d& direction, const S& x) {
-      for (int i = 0; i < 3; ++i)
-        if (direction[i] != 0) sum_B[i] = sum(sum_B[i], direction[i], x);
-    };
-    for (std::size_t n = 0; n < arms_.size(); ++n) {
-      const S Omega2 = motors[n].Omega * motors[n].Omega;
-      add(F, arms_[n].a_B, Omega2), add(rF, arms_[n].moment_B, Omega2), add(Q, arms_[n].spin_B, Omega2);
-      if (spinning_)
-        add(h, arms_[n].spin_B, motors[n].Omega), add(h_dot, arms_[n].spin_B, motors[n].Omega_dot);
-    }
-    RotorSums<S> sums;
-    for (int i = 0; i < 3; ++i) {
-      sums.F_B[i] = p_[param::kT] * F[i];                          // (3)
-      sums.M_B[i] = p_[param::kT] * rF[i] - p_[param::kQ] * Q[i];  // (4)
-    }
-    if (spinning_) {
-      const S momentum = (vehicle_->signs == Signs::first_principles ? 1.0 : -1.0) * Jp_;  // erratum 1
-      for (int i = 0; i < 3; ++i) sums.M_B[i] -= momentum * h_dot[i], sums.h_B[i] = momentum * h[i];  // (4)
-    }
-    return sums;
-  }
+  /// Equations (3) and (4) for a plain body but for the turning of the rotors' momentum.
+  RotorSums<S> rotor_sums(std::span<const MotorState<S>> motors) const { return sums(motors, nullptr); }
 
   /// Equations (5) to (7), with accelerations from outside if there are any.
   BodyRate<S> rate(const BodyState<S>& state, std::span<const MotorState<S>> motors,
@@ -204,7 +139,7 @@ class Body {
   /// The same for a plain body.
   BodyRate<S> rate(const BodyState<S>& state, const RotorSums<S>& rotors,
                    const Disturbance<S>* outside = nullptr) const {
-    return rate_under(plain_wrench(state, rotors), state, rotation(state.q_WB), outside);
+    return rate_under(under(state, rotors), state, rotation(state.q_WB), outside);
   }
 
   const S& mass() const { return m_; }
@@ -213,7 +148,70 @@ class Body {
   double Omega_hover() const { return Omega_hover_; }
 
  private:
-  Wrench<S> plain_wrench(const BodyState<S>& state, const RotorSums<S>& rotors) const {
+  // What a hub sees of the body's motion.
+  struct Around {
+    Vec3<S> v_air_B;
+    const BodyState<S>* state;
+    const Mat3<S>* R_WB;
+  };
+
+  // Sums over the rotors of T, Q, s Omega and s Omega' with vectors that are constants wherever the axes are.
+  // `around` may be null for a plain body.
+  RotorSums<S> sums(std::span<const MotorState<S>> motors, const Around* around) const {
+    const S zero(0.0);
+    const unsigned touches = effects_->touches();
+    const bool seam = (touches & kTouchRotor) != 0, fixed = fixed_axes_ && (touches & kTouchAxis) == 0;
+    Vec3<S> F(zero, zero, zero), M(zero, zero, zero), Q(zero, zero, zero), h(zero, zero, zero),
+        h_dot(zero, zero, zero);
+    const auto add = [](Vec3<S>& sum_B, const Eigen::Vector3d& direction, const S& x) {
+      for (int i = 0; i < 3; ++i)
+        if (direction[i] != 0) sum_B[i] = sum(sum_B[i], direction[i], x);
+    };
+    const auto with_fixed_axis = [&](std::size_t n, const S& T, const S& drag) {
+      const Arm& arm = arms_[n];
+      add(F, arm.a_B, T), add(M, arm.moment_B, T), add(Q, arm.spin_B, drag);
+      if (spinning_) add(h, arm.spin_B, motors[n].Omega), add(h_dot, arm.spin_B, motors[n].Omega_dot);
+    };
+    const auto with_free_axis = [&](std::size_t n, const Vec3<S>& a_B, const S& T, const S& drag) {
+      const Rotor& geometry = vehicle_->rotors[n];
+      const Vec3<S> thrust = T * a_B;
+      F += thrust, M += cross(geometry.r_B, thrust), Q += (geometry.s * drag) * a_B;
+      if (spinning_)
+        h += (geometry.s * motors[n].Omega) * a_B, h_dot += (geometry.s * motors[n].Omega_dot) * a_B;
+    };
+    for (std::size_t n = 0; n < arms_.size(); ++n) {
+      const S& Omega = motors[n].Omega;
+      const S Omega2 = Omega * Omega;
+      if (!seam) {  // over kT and kQ, which multiply the sums
+        fixed ? with_fixed_axis(n, Omega2, Omega2) : with_free_axis(n, a_B_[n], Omega2, Omega2);
+        continue;
+      }
+      const Eigen::Vector3d& r_B = vehicle_->rotors[n].r_B;
+      RotorSeam<S> rotor;
+      rotor.index = static_cast<int>(n), rotor.Omega_hover = Omega_hover_;
+      rotor.axis = fixed ? &arms_[n].a_B : nullptr, rotor.a_B = a_B_[n];
+      rotor.Omega = Omega, rotor.T = p_[param::kT] * Omega2, rotor.Q = p_[param::kQ] * Omega2;
+      if (around && (touches & kTouchFlow)) rotor.v_air_B = around->v_air_B + cross(around->state->w_B, r_B);
+      if (around && (touches & kTouchHeight))
+        rotor.height = vehicle_->ground_z - (around->state->x_W[2] + dot(Vec3<S>(around->R_WB->row(2)), r_B));
+      if (touches & kTouchHub) rotor.F_B = rotor.M_B = Vec3<S>(zero, zero, zero);
+      effects_->apply(rotor);
+      if (touches & kTouchHub) F += rotor.F_B, M += rotor.M_B + cross(r_B, rotor.F_B);
+      fixed ? with_fixed_axis(n, rotor.T, rotor.Q) : with_free_axis(n, rotor.a_B, rotor.T, rotor.Q);
+    }
+    RotorSums<S> total;
+    for (int i = 0; i < 3; ++i) {
+      total.F_B[i] = seam ? F[i] : p_[param::kT] * F[i];                                // (3)
+      total.M_B[i] = seam ? M[i] - Q[i] : p_[param::kT] * M[i] - p_[param::kQ] * Q[i];  // (4)
+    }
+    if (spinning_) {
+      const S momentum = (vehicle_->signs == Signs::first_principles ? 1.0 : -1.0) * Jp_;  // erratum 1
+      for (int i = 0; i < 3; ++i) total.M_B[i] -= momentum * h_dot[i], total.h_B[i] = momentum * h[i];  // (4)
+    }
+    return total;
+  }
+
+  Wrench<S> under(const BodyState<S>& state, const RotorSums<S>& rotors) const {
     Wrench<S> total{rotors.F_B, rotors.M_B};
     if (spinning_) total.M_B -= cross(state.w_B, rotors.h_B);  // (4)
     return total;
@@ -273,7 +271,8 @@ class Body {
   };
   std::vector<Arm> arms_;
   double Omega_hover_ = 1.0;
-  bool off_centre_ = false, spinning_ = false, linear_drag_ = false, diagonal_ = false, plain_ = false;
+  bool off_centre_ = false, spinning_ = false, linear_drag_ = false, diagonal_ = false, plain_ = false,
+       fixed_axes_ = true;
 };
 
 }  // namespace ident

@@ -188,8 +188,11 @@ class Flight {
       if (!asymmetric_) continue;
       // The slower natural frequency holds while the rotor is above its target; blended over 2 rad/s so that
       // the change has a derivative.
-      const double excess = (value(from[n].Omega) - value(goal.mean)) / 2.0;
-      const double share = excess > 30 ? 1.0 : excess < -30 ? 0.0 : 1.0 / (1.0 + std::exp(-excess));
+      using std::exp;
+      const S excess = 0.5 * (from[n].Omega - goal.mean);
+      const S share = value(excess) > 30    ? S(1.0)
+                      : value(excess) < -30 ? S(0.0)
+                                            : S(1.0 / (1.0 + exp(-excess)));
       const MotorState<S> slow = followed(down_, from[n], goal, S(lag_ / down_ratio_), h);
       to[n].Omega = to[n].Omega + share * (slow.Omega - to[n].Omega);
       to[n].Omega_dot = to[n].Omega_dot + share * (slow.Omega_dot - to[n].Omega_dot);

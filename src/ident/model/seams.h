@@ -30,17 +30,37 @@ struct AirSeam {
   Vec3<S> wind_W;
 };
 
-/// Seam `rotor`: one rotor in its flow. Forces act at the hub.
+/// Seam `rotor`: one rotor in its flow. Forces act at the hub. What an effect does not say that it touches
+/// need not be set.
 template <class S>
 struct RotorSeam {
-  int index = 0;             ///< 0 for the first rotor
-  double Omega_hover = 1.0;  ///< nominal rotor speed at hover, rad/s
-  S Omega;                   ///< rad/s
-  Vec3<S> v_air_B;           ///< air-relative velocity of the hub, m/s
-  S height;                  ///< of the hub above the ground, m
-  Vec3<S> a_B;               ///< thrust axis; may be turned
-  S T, Q;                    ///< thrust N and drag torque N m; may be changed
-  Vec3<S> F_B, M_B;          ///< further force, N, and hub moment, N m; start at zero
+  int index = 0;                          ///< 0 for the first rotor
+  double Omega_hover = 1.0;               ///< nominal rotor speed at hover, rad/s
+  const Eigen::Vector3d* axis = nullptr;  ///< the thrust axis where it is a constant
+  S Omega;                                ///< rad/s
+  Vec3<S> v_air_B;                        ///< air-relative velocity of the hub, m/s
+  S height;                               ///< of the hub above the ground, m
+  Vec3<S> a_B;                            ///< thrust axis; may be turned
+  S T, Q;                                 ///< thrust N and drag torque N m; may be changed
+  Vec3<S> F_B, M_B;                       ///< further force, N, and hub moment, N m; start at zero
+
+  /// Speed of the hub along the thrust axis.
+  S along() const {
+    if (!axis) return dot(v_air_B, a_B);
+    S v = (*axis)[2] * v_air_B[2];
+    for (int i = 0; i < 2; ++i)
+      if ((*axis)[i] != 0) v = sum(v, (*axis)[i], v_air_B[i]);
+    return v;
+  }
+  /// Velocity of the hub across the disk.
+  Vec3<S> across() const {
+    const S v = along();
+    if (!axis) return v_air_B - v * a_B;
+    Vec3<S> rest = v_air_B;
+    for (int i = 0; i < 3; ++i)
+      if ((*axis)[i] != 0) rest[i] = sum(rest[i], -(*axis)[i], v);
+    return rest;
+  }
 };
 
 /// Seam `body`: the airframe as a whole, forces at the centre of gravity.
@@ -67,11 +87,16 @@ struct TimeSeam {
 
 /// What an active effect touches, so that the model computes no more than it must.
 enum Touch : unsigned {
-  kTouchFlow = 1,       ///< rotor or body seam: needs the flow at each hub
+  kTouchFlow = 1,       ///< rotor, body or air seam: needs the velocity through the air
   kTouchCentre = 2,     ///< centre of gravity off the origin
   kTouchSpin = 4,       ///< momentum of the rotors
   kTouchAsymmetry = 8,  ///< spin-down differs from spin-up
   kTouchGain = 16,      ///< rotor speed per command
+  kTouchRotor = 32,     ///< rotor seam: thrust or torque
+  kTouchHeight = 64,    ///< needs the height above the ground
+  kTouchAxis = 128,     ///< turns the thrust axis
+  kTouchHub = 256,      ///< adds a force or moment at the hub
+  kTouchImuFrame = 512  ///< turns what the accelerometer shows
 };
 
 /// The model without any effect: every seam is left as it is.
