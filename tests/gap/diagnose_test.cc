@@ -92,6 +92,27 @@ TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
   EXPECT_NEAR(found.adopted.parameters.at("omega_m").value, truth, 0.1 * truth);
 }
 
+// A heavy payload shows its inertia only where it acts: linearised at zero it is a shifted centre of gravity,
+// and then products of inertia.
+TEST(Diagnosis, AHeavyPayloadIsOneCauseNotTwo) {
+  Vehicle model = published();
+  for (const char* name : {"kT", "kQ", "km", "Jxx", "Jyy", "Jzz"})
+    model.parameters.at(name).std = 0.05 * model.value(name);
+  model.parameters.at("m").std = 0.03 * model.value("m");
+  Vehicle truth = model;
+  const double m = 0.07 * model.value("m");
+  truth.parameters["payload.m"] = {m, {}};
+  truth.parameters["payload.x"] = {0.02, {}};
+  truth.parameters["payload.y"] = {0.05, {}};
+  truth.parameters["payload.z"] = {-0.04, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 7)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"payload"}))
+      << found.result.extra["verdict"];
+  EXPECT_NEAR(found.adopted.parameters.at("payload.m").value, m, 0.1 * m);
+  EXPECT_NEAR(found.adopted.parameters.at("payload.y").value, 0.05, 0.005);
+}
+
 // A payload too light to be weighed shows as a shifted centre of gravity only: both are named. Where the mass
 // is known well it is the payload.
 TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {

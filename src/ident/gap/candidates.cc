@@ -91,8 +91,11 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
                      is(EffectId::motor_delay));
     } else if (is(EffectId::payload)) {
       // At zero mass its place has no effect: to first order a payload is mass and a shifted centre of
-      // gravity.
-      build.effect(name, {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true);
+      // gravity. One that was taken up is what it is.
+      if (std::ranges::find(base, "payload.m", &FreeConstant::name) != base.end())
+        build.effect(name, {"payload.m", "payload.x", "payload.y", "payload.z"}, true);
+      else
+        build.effect(name, {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true);
     } else if (is(EffectId::wind)) {
       const bool drag = p[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] != 0 ||
                         p[static_cast<std::size_t>(find_parameter("parasitic_drag.C")->index)] != 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -66,6 +67,21 @@ Further further(const QuadraticForm& form, const ExtendedProblem& problem, const
           set.physical && degrees >= 1};
 }
 
+// A cause that moves masses about, as something bolted on would.
+bool moves_mass(const Candidate& c) {
+  return c.name == "cg_offset" || c.name == "products_of_inertia" || c.name == "parameter:m" ||
+         c.name == "parameter:Jxx" || c.name == "parameter:Jyy" || c.name == "parameter:Jzz";
+}
+
+// Where the search stood before it took up the first of those.
+struct BeforeMass {
+  FittedModel model;
+  ExtendedProblem problem;
+  QuadraticForm form;
+  std::vector<int> have;
+  std::size_t steps = 0;
+};
+
 }  // namespace
 
 std::string described(const Candidate& c) {
@@ -122,6 +138,40 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
       if (stands(held)) out.best = out.base = std::move(held);
     }
   }
+  std::optional<BeforeMass> before_mass;
+  // Two causes that move masses may be one payload, which shows its inertia only where it acts. It stands if
+  // with it none of them gains any more.
+  const auto payload_instead = [&](const Candidate& next) {
+    if (!before_mass || !moves_mass(next)) return false;
+    const BeforeMass at = *std::exchange(before_mass, std::nullopt);
+    const auto payload = std::ranges::find(at.problem.candidates, "payload", &Candidate::name);
+    if (payload == at.problem.candidates.end()) return false;
+    tell(0.3 + 0.2 * static_cast<double>(at.steps), "payload");
+    FittedModel trial = with_cause(record, vehicle, {at.model, at.problem, at.form}, at.have,
+                                   static_cast<int>(payload - at.problem.candidates.begin()), fit);
+    if (!stands(trial)) return false;
+    ExtendedProblem problem;
+    QuadraticForm form = everything_at(trial, problem);
+    const std::vector<int> have = places_of(trial.adopted, problem);
+    double degrees = 0;
+    for (int c = 0; c < static_cast<int>(problem.candidates.size()); ++c) {
+      const Candidate& other = problem.candidates[static_cast<std::size_t>(c)];
+      const bool replaced =
+          same(other, next) || std::ranges::any_of(out.best.adopted, [&](const Candidate& a) {
+            return moves_mass(a) && same(a, other);
+          });
+      if (replaced && further(form, problem, have, c, degrees).passes(degrees)) return false;
+    }
+    std::vector<int> without = have;
+    std::erase_if(without,
+                  [&](int c) { return problem.candidates[static_cast<std::size_t>(c)].name == "payload"; });
+    const int place = *std::ranges::find_if(
+        have, [&](int c) { return problem.candidates[static_cast<std::size_t>(c)].name == "payload"; });
+    out.steps.resize(at.steps);
+    out.steps.push_back({"payload", further(form, problem, without, place, degrees).honest()});
+    out.best = std::move(trial);
+    return true;
+  };
   std::vector<Candidate> tried;  // and found no better where they act
   std::vector<Candidate> fell;   // whose fit ran away
   const auto runs_away = [&](const FittedModel& model, const Candidate& cause) {
@@ -187,10 +237,15 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     for (const SearchStep& s : out.steps) found += s.gain;
     if (best.candidate < 0 || (step >= kOften && best.honest() < kMaterial * found)) break;
     const Candidate chosen = out.problem.candidates[static_cast<std::size_t>(best.candidate)];
+    if (payload_instead(chosen)) {
+      moved = true;
+      continue;
+    }
     tell(0.3 + 0.2 * step, described(chosen));
     FittedModel next =
         with_cause(record, vehicle, {out.best, out.problem, out.form}, have, best.candidate, fit);
     if (runs_away(next, chosen)) continue;
+    if (moves_mass(chosen)) before_mass = {out.best, out.problem, out.form, have, out.steps.size()};
     out.steps.push_back({described(chosen), best.honest()});
     out.best = std::move(next);
     moved = true;
