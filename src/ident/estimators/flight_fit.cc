@@ -23,6 +23,8 @@ constexpr double kStuck = 1.0;
 // Fall of the cost that is worth a step with exact slopes.
 constexpr double kWorthAStep = 0.01;
 constexpr int kMostSteps = 30;
+// Trust region, in standard deviations of each unknown alone, after a step without one has failed.
+constexpr double kShort = 1.0;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 
@@ -120,7 +122,6 @@ VectorXd by_trust_region(FlightSmoother& smoother, const VectorXd& start, double
     samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
   problem.tolerance = tolerance / samples;  // the cost is about one a sample
   problem.max_steps = max_steps;
-  if (free) problem.initial_radius = 1e12;
   problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
     if (!theta.possible(u)) return false;
     if (last.size() == 0 || u != last) {
@@ -144,7 +145,13 @@ VectorXd by_trust_region(FlightSmoother& smoother, const VectorXd& start, double
     return true;
   };
   problem.enough = [&] { return last.size() > 0 && newton_step(system, theta, last).fall < near; };
-  const SteppedMinimum best = minimise_stepped(problem, start);
+  if (free) problem.initial_radius = 1e12, problem.ends_when_rejected = true;
+  SteppedMinimum best = minimise_stepped(problem, start);
+  if (best.rejected) {  // from that far it would take ten more to shrink to where a step helps
+    steps += best.steps;
+    problem.initial_radius = kShort, problem.ends_when_rejected = false;
+    best = minimise_stepped(problem, best.u);
+  }
   steps += best.steps;
   cost = 2 * best.cost;
   if (!best.ok)

@@ -147,13 +147,18 @@ class EnoughSteps : public ceres::IterationCallback {
   explicit EnoughSteps(const SteppedProblem& problem) : problem_(problem), left_(problem.max_steps) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (summary.iteration > 0 && summary.step_is_successful) --left_;
-    const bool enough = left_ <= 0 || (summary.step_is_successful && problem_.enough && problem_.enough());
+    rejected_ = problem_.ends_when_rejected && summary.iteration > 0 && !summary.step_is_successful;
+    const bool enough =
+        left_ <= 0 || rejected_ || (summary.step_is_successful && problem_.enough && problem_.enough());
     return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
+
+  bool rejected() const { return rejected_; }
 
  private:
   const SteppedProblem& problem_;
   int left_;
+  bool rejected_ = false;
 };
 
 }  // namespace
@@ -181,6 +186,7 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   best.cost = summary.final_cost;
   best.steps = static_cast<int>(summary.iterations.size()) - 1;
   best.ok = summary.termination_type != ceres::FAILURE;
+  best.rejected = enough.rejected();
   return best;
 }
 

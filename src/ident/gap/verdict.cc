@@ -127,14 +127,15 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     out.effects.clear();
     return out;
   }
-  // Other sets that explain it about as well.
+  // Other sets that explain it about as well; one with a further cause beside those found is none.
   double own = 0;
+  const std::set<std::string> named(out.effects.begin(), out.effects.end());
   for (const WeighedSet& set : search.sets) {
     std::set<std::string> names;
     std::vector<Candidate> members;
     for (const int m : set.members) members.push_back(search.problem.candidates[static_cast<std::size_t>(m)]);
     for (const std::string& n : names_of(members)) names.insert(n);
-    if (names == std::set<std::string>(out.effects.begin(), out.effects.end())) {
+    if (std::ranges::includes(names, named)) {
       own += set.probability;
     } else if (set.probability > 0.05) {
       for (const std::string& n : names)
