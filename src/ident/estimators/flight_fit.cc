@@ -102,10 +102,6 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
   return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
 }
 
-}  // namespace
-
-namespace {
-
 // Ceres' trust region over the shared unknowns, until a whole step promises less than `near` or nothing is
 // gained. `free` of a first radius: it would hold a step back along directions that only priors determine,
 // which are weak beside those that the flight does.
@@ -145,11 +141,11 @@ VectorXd by_trust_region(FlightSmoother& smoother, const VectorXd& start, double
     return true;
   };
   problem.enough = [&] { return last.size() > 0 && newton_step(system, theta, last).fall < near; };
-  if (free) problem.initial_radius = 1e12, problem.ends_when_rejected = true;
+  if (free) problem.initial_radius = 1e12, problem.most_rejected = 1;
   SteppedMinimum best = minimise_stepped(problem, start);
-  if (best.rejected) {  // from that far it would take ten more to shrink to where a step helps
+  if (free && best.rejected) {  // from that far it would take ten more to shrink to where a step helps
     steps += best.steps;
-    problem.initial_radius = kShort, problem.ends_when_rejected = false;
+    problem.initial_radius = kShort, problem.most_rejected = SteppedProblem().most_rejected;
     best = minimise_stepped(problem, best.u);
   }
   steps += best.steps;

@@ -141,24 +141,26 @@ namespace {
 constexpr int kRejected =
     10;  // steps that may fail beyond those asked for: the trust region shrinks meanwhile
 
-/// Ends the search after a number of steps that were taken, or where the problem has had enough.
+/// Ends the search after a number of steps that were taken or failed, or where the problem has had enough.
 class EnoughSteps : public ceres::IterationCallback {
  public:
   explicit EnoughSteps(const SteppedProblem& problem) : problem_(problem), left_(problem.max_steps) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (summary.iteration > 0 && summary.step_is_successful) --left_;
-    rejected_ = problem_.ends_when_rejected && summary.iteration > 0 && !summary.step_is_successful;
+    if (summary.iteration == 0) return ceres::SOLVER_CONTINUE;
+    if (summary.step_is_successful)
+      --left_, rejected_ = 0;
+    else
+      ++rejected_;
     const bool enough =
-        left_ <= 0 || rejected_ || (summary.step_is_successful && problem_.enough && problem_.enough());
+        left_ <= 0 || rejected() || (summary.step_is_successful && problem_.enough && problem_.enough());
     return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
-  bool rejected() const { return rejected_; }
+  bool rejected() const { return rejected_ >= problem_.most_rejected; }
 
  private:
   const SteppedProblem& problem_;
-  int left_;
-  bool rejected_ = false;
+  int left_, rejected_ = 0;
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ struct SteppedProblem {
   double tolerance = 1e-9;    ///< relative change of the cost
   int max_steps = 30;         ///< that are taken; some more may fail
   double initial_radius = 1e4;
-  bool ends_when_rejected = false;  ///< at the first step that fails
+  int most_rejected = 5;         ///< that fail one after the other before nothing more is expected
   std::function<bool()> enough;  ///< asked after each step that was taken; may be empty
 };
 
@@ -40,7 +40,7 @@ struct SteppedMinimum {
   double cost = 0.0;
   int steps = 0;
   bool ok = false;
-  bool rejected = false;  ///< ended at a step that failed
+  bool rejected = false;  ///< ended at steps that failed
 };
 
 SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
