@@ -25,6 +25,8 @@ constexpr double kWorthAStep = 0.01;
 constexpr int kMostSteps = 30;
 // Trust region, in standard deviations of each unknown alone, after a step without one has failed.
 constexpr double kShort = 1.0;
+// Steps from there that fail one after the other: the next would be a thousandth of it.
+constexpr int kRejected = 5;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 
@@ -145,7 +147,7 @@ VectorXd by_trust_region(FlightSmoother& smoother, const VectorXd& start, double
   SteppedMinimum best = minimise_stepped(problem, start);
   if (free && best.rejected) {  // from that far it would take ten more to shrink to where a step helps
     steps += best.steps;
-    problem.initial_radius = kShort, problem.most_rejected = SteppedProblem().most_rejected;
+    problem.initial_radius = kShort, problem.most_rejected = kRejected;
     best = minimise_stepped(problem, best.u);
   }
   steps += best.steps;

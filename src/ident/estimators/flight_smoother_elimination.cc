@@ -152,8 +152,7 @@ void FlightSmoother::add_link(std::size_t k, MatrixXd& D, MatrixXd& B, VectorXd&
   B.noalias() += E.leftCols(n).transpose() * WE.rightCols(m);
   f.noalias() += E.leftCols(n).transpose() * Wd;
   U = -WE.leftCols(n).transpose();
-  const MatrixXd root = W.cwiseSqrt().asDiagonal() * E.rightCols(m);
-  sum.S.selfadjointView<Eigen::Lower>().rankUpdate(root.transpose());
+  sum.S.noalias() += E.rightCols(m).transpose() * WE.rightCols(m);
   sum.g.noalias() += E.rightCols(m).transpose() * Wd;
   sum.cost += d.dot(Wd);
   carry.D = W.asDiagonal();
@@ -164,7 +163,7 @@ void FlightSmoother::add_link(std::size_t k, MatrixXd& D, MatrixXd& B, VectorXd&
 void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum) {
   const Index n = record_->layout.size, own = theta_->size(), m = shared();
   Elimination& el = trial_elimination_;
-  sum = {0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)};  // of S the lower half
+  sum = {0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)};
   const VectorXd at_start = start_information(begin);
   Carry carry;
   MatrixXd U;
@@ -207,14 +206,13 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     if (carry.on) right.leftCols(n) = s.asDiagonal() * U;
     right.middleCols(c, m) = s.asDiagonal() * B;
     right.col(c + m) = s.cwiseProduct(f);
-    llt.matrixL().solveInPlace(right);
-    sum.S.selfadjointView<Eigen::Lower>().rankUpdate(right.middleCols(c, m).transpose(), -1.0);
-    llt.matrixU().solveInPlace(right);
+    llt.solveInPlace(right);
     const MatrixXd solved = s.asDiagonal() * right;
     if (carry.on) el.G[k] = solved.leftCols(n);
     el.B[k] = solved.middleCols(c, m);
     el.f[k] = solved.col(c + m);
     el.D_inverse[k] = s.asDiagonal() * llt.solve(MatrixXd(s.asDiagonal()));
+    sum.S.noalias() -= B.transpose() * el.B[k];
     sum.g.noalias() -= B.transpose() * el.f[k];
     sum.cost -= f.dot(el.f[k]);
     if (!carry.on) continue;
@@ -233,7 +231,7 @@ void FlightSmoother::eliminate() {
   reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared())};
   for (const ReducedSystem& part : parts)
     reduced_.cost += part.cost, reduced_.g += part.g, reduced_.S += part.S;
-  reduced_.S.triangularView<Eigen::StrictlyUpper>() = reduced_.S.transpose();
+  reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
 }
 
 // Backward recursion for the posterior covariance of each state and of neighbours, shared unknowns held.

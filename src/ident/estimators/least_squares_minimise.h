@@ -31,7 +31,7 @@ struct SteppedProblem {
   double tolerance = 1e-9;    ///< relative change of the cost
   int max_steps = 30;         ///< that are taken; some more may fail
   double initial_radius = 1e4;
-  int most_rejected = 5;         ///< that fail one after the other before nothing more is expected
+  int most_rejected = 10;
   std::function<bool()> enough;  ///< asked after each step that was taken; may be empty
 };
 
