@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ident/core/dual.h"
 #include "ident/effects/catalogue.h"
 #include "ident/model/flight.h"
 
@@ -48,6 +49,31 @@ TEST(HeldCommand, TheLineHasTheMeanAndTheFirstMomentOfTheCommand) {
   EXPECT_FALSE(command.line<double>(0.2, 0.8, 0.0).bent);
   EXPECT_DOUBLE_EQ(command.line<double>(-3.0, -2.0, 0.0).mean, 0.0);
   EXPECT_NEAR(command.line<double>(1.7, 2.7, 0.5).mean, 0.8 * 3.0 + 0.2 * 1.0, 1e-14);
+}
+
+// Commands are sampled where steps begin. There a delay of zero has the derivative of a small one, over many
+// rows whose times are rounded.
+TEST(HeldCommand, AnyDelayMovesAJumpOnTheEdgeIntoTheLaterStep) {
+  struct Here {};
+  using D = Dual<1, Here>;
+  std::vector<double> t, delta;
+  for (int i = 0; i < 400; ++i)
+    t.push_back(700.0 + 0.004 * i), delta.push_back(0.5 + 0.1 * std::sin(1.7 * i));
+  const HeldCommand command(t, delta);
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+    const double h = (t[i + 1] - t[i]) / 2, tiny = 1e-7;
+    for (const double from : {t[i], t[i] + h}) {
+      D none(0.0);
+      none.seed(0);
+      const auto exact = command.line<D>(from, from + h, none);
+      const auto later = command.line<double>(from, from + h, tiny);
+      const auto now = command.line<double>(from, from + h, 0.0);
+      ASSERT_NEAR(exact.mean.v, delta[i], 1e-12) << i;
+      ASSERT_NEAR(exact.mean.derivative(0), (later.mean - now.mean) / tiny,
+                  1e-6 + 1e-3 * std::abs(exact.mean.derivative(0)))
+          << i;
+    }
+  }
 }
 
 }  // namespace

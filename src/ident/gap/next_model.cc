@@ -9,13 +9,6 @@ namespace {
 
 constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found anew with the cause
 
-// Where the quadratic form sends a constant, from far away too: what a positive one does to a flight often
-// goes with it or with its reciprocal (a lag with 1/omega_m), and neither changes sign.
-double sent(const FreeConstant& c, double step) {
-  if (!c.positive) return c.start + c.scale * step;
-  return step > 0 ? c.start * (1 + step) : c.start / (1 - step);
-}
-
 }  // namespace
 
 FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
@@ -27,10 +20,6 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   const std::vector<double> at = at_now.model.theta->p(at_now.model.fit.u);
   std::vector<FreeConstant> constants = at_now.model.constants;
   for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
-  if (cause.parameter >= 0) {
-    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
-    c.start = sent(c, set.step[cause.parameter]);
-  }
   for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
     if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
     for (const int i : cause.directions) {
@@ -59,13 +48,7 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   again.estimate_noise = strong;
   again.chunk_seconds =
       std::min(at_now.model.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
-  FittedModel model = fitted(constants, adopted, record, at, again);
-  if (cause.parameter >= 0 && !stands(model)) {  // it was sent too far
-    FreeConstant& c = constants[static_cast<std::size_t>(cause.parameter)];
-    c.start = at[static_cast<std::size_t>(c.index)];
-    model = fitted(constants, adopted, record, at, again);
-  }
-  return model;
+  return fitted(constants, adopted, record, at, again);
 }
 
 FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,

@@ -118,16 +118,21 @@ class HeldCommand {
   void append(double t, double delta) { t_.push_back(t), delta_.push_back(delta); }
 
   /// Over [from - tau, to - tau]. `Delay` is the scalar S, or double for a delay that is not estimated; S
-  /// says which build of the code this is.
+  /// says which build of the code this is. A jump on the edge between two steps belongs to the later one: any
+  /// delay moves it there, so that this is where its derivative is.
   template <class S, class Delay>
   CommandLine<Delay> line(double from, double to, const Delay& tau) const {
+    constexpr double edge = 1e-9;  // s, beyond any rounding of times
+    constexpr bool estimated = !std::is_same_v<Delay, double>;
     const double h = to - from, *t = t_.data(), *delta = delta_.data();
-    const double begin = from - value(tau), end = to - value(tau);
+    const double begin = from - value(tau) + (estimated ? -edge : edge), end = to - value(tau) - edge;
     std::size_t i = row_before<S>(t, t_.size(), begin);
     CommandLine<Delay> line{Delay(delta[i]), Delay(0.0)};
     for (++i; i < t_.size() && t[i] < end; ++i) {
       if (t[i] <= begin) continue;  // before the first row its value holds
-      const Delay c = tau + (t[i] - from), left = h - c;
+      Delay c = tau + (t[i] - from);
+      if (value(c) < 0) c = c - value(c);
+      const Delay left = h - c;
       const double jump = delta[i] - delta[i - 1];
       line.mean = line.mean + (jump / h) * left;
       line.slope = line.slope + (6 * jump / (h * h * h)) * (c * left);
