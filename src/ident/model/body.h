@@ -174,10 +174,11 @@ class Body {
     };
     const auto with_free_axis = [&](std::size_t n, const Vec3<S>& a_B, const S& T, const S& drag) {
       const Rotor& geometry = vehicle_->rotors[n];
+      const double s = geometry.s;
       const Vec3<S> thrust = T * a_B;
-      F += thrust, M += cross(geometry.r_B, thrust), Q += (geometry.s * drag) * a_B;
+      F += thrust, M += cross(geometry.r_B, thrust), Q += (s * drag) * a_B;
       if (spinning_)
-        h += (geometry.s * motors[n].Omega) * a_B, h_dot += (geometry.s * motors[n].Omega_dot) * a_B;
+        h += (s * motors[n].Omega) * a_B, h_dot += (s * motors[n].Omega_dot) * a_B;
     };
     for (std::size_t n = 0; n < arms_.size(); ++n) {
       const S& Omega = motors[n].Omega;
