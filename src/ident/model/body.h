@@ -177,8 +177,7 @@ class Body {
       const double s = geometry.s;
       const Vec3<S> thrust = T * a_B;
       F += thrust, M += cross(geometry.r_B, thrust), Q += (s * drag) * a_B;
-      if (spinning_)
-        h += (s * motors[n].Omega) * a_B, h_dot += (s * motors[n].Omega_dot) * a_B;
+      if (spinning_) h += (s * motors[n].Omega) * a_B, h_dot += (s * motors[n].Omega_dot) * a_B;
     };
     for (std::size_t n = 0; n < arms_.size(); ++n) {
       const S& Omega = motors[n].Omega;
