@@ -14,6 +14,7 @@
 #include <fstream>
 
 #include "ident/estimators/flight_fit.h"
+#include "ident/estimators/flight_fit_steps.h"
 #include "ident/io/read_flight_log.h"
 #include "ident/io/vehicle_file.h"
 #include "plain_fit.h"
@@ -91,12 +92,6 @@ struct Problem {
   }
 };
 
-struct FastFit {
-  Eigen::VectorXd u;
-  double cost = 0;
-  int steps = 0;
-};
-
 std::unique_ptr<FlightSmoother> segments(const Problem& problem, int threads) {
   const NoiseModel noise = initial_noise(problem.record);
   auto smoother = std::make_unique<FlightSmoother>(problem.record, *problem.theta, noise, kSegment, threads);
@@ -105,13 +100,10 @@ std::unique_ptr<FlightSmoother> segments(const Problem& problem, int threads) {
   return smoother;
 }
 
-FastFit fit_fast(const Problem& problem, int threads, double tolerance, bool exact = false) {
-  FastFit fit;
+SharedMinimum fit_fast(const Problem& problem, int threads, double tolerance, bool exact = false) {
   const auto smoother = segments(problem, threads);
   smoother->set_exact(exact);
-  fit.u = minimise_shared(*smoother, Eigen::VectorXd::Zero(problem.theta->size()), tolerance, &fit.steps,
-                          &fit.cost);
-  return fit;
+  return minimise_shared(*smoother, Eigen::VectorXd::Zero(problem.theta->size()), tolerance);
 }
 
 void row(const std::string& what, double seconds, const std::string& note = "") {
@@ -149,7 +141,7 @@ int run(int runs) {
   row("elimination alone", least_seconds(runs, [&] { one->relinearize(); }));
   // Plain Ceres stops on a relative change, minimise_shared on an absolute one.
   constexpr double tolerance = 1e-3;
-  FastFit fast;
+  SharedMinimum fast;
   const double fast_one = least_seconds(runs, [&] { fast = fit_fast(problem, 1, tolerance); });
   row("fit, one core", fast_one, fmt::format("{} steps", fast.steps));
   const double fast_two = least_seconds(runs, [&] { fit_fast(problem, 2, tolerance); });

@@ -1,87 +1,23 @@
 // Ceres over the reduced system, in turn with the noise; sandwich covariance.
 #include "ident/estimators/flight_fit.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "ident/core/error.h"
 #include "ident/core/random.h"
-#include "ident/estimators/least_squares_minimise.h"
+#include "ident/estimators/flight_fit_steps.h"
 
 namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
-// A step that promises less than this fall of the cost is near the minimum.
-constexpr double kNear = 25.0;
-// There a step has to leave no more than this share of what was promised before it.
-constexpr double kShrinks = 0.7;
-// What is left where steps near the minimum lead nowhere, for a trust region to be worth its time.
-constexpr double kStuck = 1.0;
 // Fall of the cost that is worth a step with exact slopes.
 constexpr double kWorthAStep = 0.01;
-constexpr int kMostSteps = 30;
-// Trust region, in standard deviations of each unknown alone, after a step without one has failed.
-constexpr double kShort = 1.0;
-// Steps from there that fail one after the other: the next would be a thousandth of it.
-constexpr int kRejected = 5;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// S = F'F by eigenvalues: S may be singular where the data tell nothing. Gives F and F^-T g (within its
-/// range).
-struct Factor {
-  MatrixXd F;
-  VectorXd r;
-};
-Factor factor(const MatrixXd& S, const VectorXd& g) {
-  const VectorXd scale = S.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * S * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
-  const VectorXd h = eigen.eigenvectors().transpose() * scale.cwiseInverse().asDiagonal() * g;
-  VectorXd root(h.size()), r(h.size());
-  const double smallest = 1e-13 * eigen.eigenvalues().maxCoeff();
-  for (Eigen::Index i = 0; i < h.size(); ++i) {
-    const double lambda = eigen.eigenvalues()[i];
-    root[i] = lambda > smallest ? std::sqrt(lambda) : 0.0;
-    r[i] = root[i] > 0 ? h[i] / root[i] : 0.0;
-  }
-  return {root.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal(), r};
-}
-
-MatrixXd prior_information(const Theta& theta, const VectorXd& u) {
-  const VectorXd slope = theta.prior(u).slope;
-  // Without any prior a factor of e is allowed per standard deviation: keeps undetermined directions in
-  // place.
-  VectorXd info = slope.cwiseAbs2();
-  for (int i = 0; i < theta.size(); ++i)
-    if (slope[i] == 0) info[i] = 1e-2;
-  return info.asDiagonal();
-}
-
-MatrixXd inverse_of(const MatrixXd& M) {
-  const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
-  const MatrixXd inverse = Eigen::LDLT<MatrixXd>(scaled).solve(MatrixXd::Identity(M.rows(), M.cols()));
-  return s.asDiagonal() * inverse * s.asDiagonal();
-}
-
-// To the minimum of the quadratic form, and how far the cost falls there.
-struct Newton {
-  VectorXd du;
-  double fall;
-};
-Newton newton_step(const ReducedSystem& system, const Theta& theta, const VectorXd& u) {
-  const PriorTerms prior = theta.prior(u);
-  const VectorXd g = system.g + prior.slope.cwiseProduct(prior.residual);
-  const VectorXd du = -inverse_of(system.S + prior_information(theta, u)) * g;
-  return {du, -g.dot(du)};
-}
 
 // Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
 MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
@@ -104,110 +40,7 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
   return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
 }
 
-// Ceres' trust region over the shared unknowns, until a whole step promises less than `near` or nothing is
-// gained. `free` of a first radius: it would hold a step back along directions that only priors determine,
-// which are weak beside those that the flight does.
-VectorXd by_trust_region(FlightSmoother& smoother, const VectorXd& start, double tolerance, double near,
-                         int max_steps, bool free, int& steps, double& cost) {
-  const Theta& theta = smoother.theta();
-  const int n = theta.size();
-  VectorXd last;
-  ReducedSystem system;
-  SteppedProblem problem;
-  problem.residuals = 2 * n + 1;
-  double samples = 1;
-  for (const FlightArc& arc : smoother.record().arcs)
-    samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
-  problem.tolerance = tolerance / samples;  // the cost is about one a sample
-  problem.max_steps = max_steps;
-  problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) {
-    if (!theta.possible(u)) return false;
-    if (last.size() == 0 || u != last) {
-      system = smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
-      last = u;
-    }
-    if (!std::isfinite(system.cost) || !system.S.allFinite()) {
-      last.resize(0);
-      return false;
-    }
-    if (J) smoother.accept();
-    const Factor f = factor(system.S, system.g);
-    const PriorTerms prior = theta.prior(u);
-    r.head(n) = f.r;
-    r[n] = std::sqrt(std::max(system.cost - f.r.squaredNorm(), 0.0));
-    r.tail(n) = prior.residual;
-    if (J) {
-      J->topRows(n) = f.F;
-      J->bottomRows(n) = MatrixXd(prior.slope.asDiagonal());
-    }
-    return true;
-  };
-  problem.enough = [&] { return last.size() > 0 && newton_step(system, theta, last).fall < near; };
-  if (free) problem.initial_radius = 1e12, problem.most_rejected = 1;
-  SteppedMinimum best = minimise_stepped(problem, start);
-  if (free && best.rejected) {  // from that far it would take ten more to shrink to where a step helps
-    steps += best.steps;
-    problem.initial_radius = kShort, problem.most_rejected = kRejected;
-    best = minimise_stepped(problem, best.u);
-  }
-  steps += best.steps;
-  cost = 2 * best.cost;
-  if (!best.ok)
-    throw DataError("the flight model cannot be simulated with these constants: check the vehicle file");
-  return best.u;
-}
-
-// Newton's steps where they are near the minimum, until less than `enough` is promised: moves `u`, gives the
-// fall that is left. The smoother is linearised and accepted there.
-// It is this promise that judges a step. The cost is known only up to what the states gain by a step of their
-// own, and near the minimum that is more than the shared unknowns do.
-double newton_steps(FlightSmoother& smoother, VectorXd& u, double enough, int& steps, double& cost) {
-  const Theta& theta = smoother.theta();
-  const auto accepted = [&](const VectorXd& at) {
-    if (smoother.stands_at(at))
-      smoother.relinearize();
-    else
-      smoother.linearize(at);
-    smoother.accept();
-    cost = smoother.reduced().cost + theta.prior(at).residual.squaredNorm();
-    return newton_step(smoother.reduced(), theta, at);
-  };
-  Newton step = accepted(u);
-  for (int i = 0; i < kMostSteps && step.fall > enough && step.fall < kNear; ++i) {
-    const VectorXd next = u + step.du;
-    if (!theta.possible(next)) break;
-    smoother.linearize(next);
-    ++steps;
-    if (!(newton_step(smoother.reduced(), theta, next).fall < kShrinks * step.fall)) {
-      smoother.linearize(u);
-      return accepted(u).fall;
-    }
-    step = accepted(next);
-    u = next;
-  }
-  return step.fall;
-}
-
 }  // namespace
-
-VectorXd minimise_shared(FlightSmoother& smoother, const VectorXd& start, double enough, int* steps,
-                         double* cost) {
-  VectorXd u = start;
-  int taken = 0;
-  double at = 0.0;
-  double left = newton_steps(smoother, u, enough, taken, at);
-  if (!(left < kNear)) {
-    u = by_trust_region(smoother, u, enough, kNear, kMostSteps, true, taken, at);
-    left = newton_steps(smoother, u, enough, taken, at);
-  }
-  if (!(left < std::max(enough, kStuck))) {
-    u = by_trust_region(smoother, u, enough, 0.0, kMostSteps, true, taken, at);
-    newton_steps(smoother, u, enough, taken, at);
-  }
-  if (steps) *steps += taken;
-  if (cost) *cost = at;
-  return u;
-}
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
   FlightFit fit;
@@ -226,10 +59,13 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     smoother->set_huber(options.robust ? kHuber : 1e9);
     smoother->settle(u, 2);
   };
-  if (options.estimate_noise)
-    u = by_trust_region(*smoother, u, 1.0, kWorthAStep, kFirstSteps, false, fit.steps, fit.cost);
-  else
-    u = by_trust_region(*smoother, u, 1.0, kNear, kMostSteps, false, fit.steps, fit.cost);
+  const auto trust_region = [&](const TrustRegion& region) {
+    const SharedMinimum at = by_trust_region(*smoother, u, region);
+    u = at.u, fit.steps += at.steps;
+  };
+  TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
+  if (options.estimate_noise) first.near = kWorthAStep, first.max_steps = kFirstSteps;
+  trust_region(first);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
@@ -245,19 +81,23 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
     if (change < 0.03 || (round >= 5 && change < 0.3)) break;
     smoother->accept();
-    const Newton step = newton_step(smoother->reduced(), theta, u);
+    const NewtonStep step = newton_step(*smoother, u);
     if (step.fall < kNear && theta.possible(u + step.du))
       u += step.du;
     else
-      u = by_trust_region(*smoother, u, 0.1, kWorthAStep, 1, true, fit.steps, fit.cost);
+      trust_region({.tolerance = 0.1, .near = kWorthAStep, .max_steps = 1});
   }
   // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
   if (!std::isfinite(smoother->linearize(u).cost)) restart();
   // Where links let next to no noise through, the rounding of single precision would pass for information:
   // the last steps are exact.
-  u = minimise_shared(*smoother, u, std::max(options.tolerance, kWorthAStep), &fit.steps);
+  const auto minimise_to = [&](double enough) {
+    const SharedMinimum at = minimise_shared(*smoother, u, enough);
+    u = at.u, fit.steps += at.steps, fit.cost = at.cost;
+  };
+  minimise_to(std::max(options.tolerance, kWorthAStep));
   smoother->set_exact(true);
-  u = minimise_shared(*smoother, u, std::min(options.tolerance, kWorthAStep), &fit.steps, &fit.cost);
+  minimise_to(std::min(options.tolerance, kWorthAStep));
   const ReducedSystem system = smoother->reduced();
   fit.u = u;
   fit.information = system.S;

@@ -47,12 +47,6 @@ Eigen::VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
 /// for each draw; what the priors say is drawn anew with them. Seeded.
 Eigen::MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws);
 
-/// The shared unknowns alone, states and noise as they are, from `u` to where no more than `enough` of a fall
-/// of the cost is promised: Ceres' trust region over `smoother` from afar, Newton's steps near the minimum.
-/// The smoother is linearised and accepted there.
-Eigen::VectorXd minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& u, double enough,
-                                int* steps = nullptr, double* cost = nullptr);
-
 /// Levels of noise to start from: white noise from differences, a generous process noise.
 NoiseModel initial_noise(const FlightRecord& record);
 

@@ -138,9 +138,6 @@ Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& star
 
 namespace {
 
-constexpr int kRejected =
-    10;  // steps that may fail beyond those asked for: the trust region shrinks meanwhile
-
 /// Ends the search after a number of steps that were taken or failed, or where the problem has had enough.
 class EnoughSteps : public ceres::IterationCallback {
  public:
@@ -179,7 +176,7 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   options.function_tolerance = problem.tolerance;
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
-  options.max_num_iterations = problem.max_steps + kRejected;
+  options.max_num_iterations = problem.max_steps + problem.most_rejected;
   options.logging_type = ceres::SILENT;
   EnoughSteps enough(problem);
   options.callbacks.push_back(&enough);

@@ -29,9 +29,9 @@ struct SteppedProblem {
   Eigen::Index residuals = 0;
   ResidualFunction evaluate;  ///< in unconstrained coordinates; `J` null for a trial step
   double tolerance = 1e-9;    ///< relative change of the cost
-  int max_steps = 30;         ///< that are taken; some more may fail
+  int max_steps = 30;         ///< that are taken
   double initial_radius = 1e4;
-  int most_rejected = 10;
+  int most_rejected = 10;        ///< one after the other: the trust region shrinks meanwhile
   std::function<bool()> enough;  ///< asked after each step that was taken; may be empty
 };
 

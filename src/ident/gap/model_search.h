@@ -3,21 +3,13 @@
 
 #include <functional>
 
-#include "ident/gap/fitted_model.h"
-#include "ident/gap/screen.h"
+#include "ident/gap/weigh_sets.h"
 
 namespace ident {
 
 struct SearchStep {
   std::string name;
   double gain = 0.0;  ///< corrected for colour
-};
-
-/// Weight of a set of causes.
-struct WeighedSet {
-  std::vector<int> members;
-  double log_evidence = 0.0;
-  double probability = 0.0;
 };
 
 struct SearchResult {

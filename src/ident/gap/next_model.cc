@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ident {
 namespace {
@@ -11,10 +12,30 @@ constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found 
 
 }  // namespace
 
-FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
-                       const std::vector<int>& have, int chosen, const FlightFitOptions& options) {
+Standing standing_at(const FlightRecord& record, const Vehicle& vehicle,
+                     const std::vector<std::string>& exclude, FittedModel model) {
+  Standing at{std::move(model), {}, {}, {}};
+  at.problem = extended_problem(vehicle, at.model.theta->p(at.model.fit.u), record.signals,
+                                at.model.constants, exclude);
+  at.form = linearise_everything(record, at.model.fit, *at.model.theta, at.problem);
+  at.have = places_of(at.model.adopted, at.problem);
+  return at;
+}
+
+bool same(const Candidate& a, const Candidate& b) { return a.name == b.name && a.rotor == b.rotor; }
+
+std::vector<int> places_of(const std::vector<Candidate>& causes, const ExtendedProblem& problem) {
+  std::vector<int> places;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c)
+    if (std::ranges::any_of(causes, [&](const Candidate& a) { return same(a, problem.candidates[c]); }))
+      places.push_back(static_cast<int>(c));
+  return places;
+}
+
+FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now, int chosen,
+                       const FlightFitOptions& options) {
   const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
-  std::vector<int> with = have;
+  std::vector<int> with = at_now.have;
   with.push_back(chosen);
   const SetGain set = gain_of(at_now.form, at_now.problem, with);
   const std::vector<double> at = at_now.model.theta->p(at_now.model.fit.u);
@@ -43,7 +64,7 @@ FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const
   FlightFitOptions again = options;
   // Under the noise that all causes together leave, one alone of several strong ones would bend the model:
   // then what is missing still passes for gusts.
-  const bool strong = set.gain - gain_of(at_now.form, at_now.problem, have).gain > kStrong;
+  const bool strong = set.gain - gain_of(at_now.form, at_now.problem, at_now.have).gain > kStrong;
   again.noise = strong ? at_now.model.fit.noise : at_now.form.noise;
   again.estimate_noise = strong;
   again.chunk_seconds =

@@ -6,17 +6,28 @@
 
 namespace ident {
 
-/// Where a search stands: the model so far and every cause linearised there.
+/// Where a search stands: the model so far, every cause linearised there, and which of them the model has.
 struct Standing {
-  const FittedModel& model;
-  const ExtendedProblem& problem;
-  const QuadraticForm& form;
+  FittedModel model;
+  ExtendedProblem problem;
+  QuadraticForm form;
+  std::vector<int> have;
 };
 
-/// The model with one more cause, `chosen` of the problem's candidates (`have` are those it has): its
-/// constants at their fitted values, the new ones at the step of the quadratic form.
-FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
-                       const std::vector<int>& have, int chosen, const FlightFitOptions& options);
+/// Linearises every cause but those of `exclude` at a fitted model.
+Standing standing_at(const FlightRecord& record, const Vehicle& vehicle,
+                     const std::vector<std::string>& exclude, FittedModel model);
+
+/// The same cause, of the same rotor.
+bool same(const Candidate& a, const Candidate& b);
+
+/// Where the candidates of a problem have those causes.
+std::vector<int> places_of(const std::vector<Candidate>& causes, const ExtendedProblem& problem);
+
+/// The model with one more cause, `chosen` of the problem's candidates: its constants at their fitted values,
+/// the new ones at the step of the quadratic form.
+FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now, int chosen,
+                       const FlightFitOptions& options);
 
 /// The model as it is with the motors' lag where it was stated; its constants keep the priors that were
 /// stated.

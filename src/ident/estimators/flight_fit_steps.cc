@@ -1,0 +1,193 @@
+// Steps over the reduced system of the smoother.
+#include "ident/estimators/flight_fit_steps.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/error.h"
+#include "ident/estimators/least_squares_minimise.h"
+
+namespace ident {
+namespace {
+
+// Near the minimum a step has to leave no more than this share of what was promised before it.
+constexpr double kShrinks = 0.7;
+// What is left where steps near the minimum lead nowhere, for a trust region to be worth its time.
+constexpr double kStuck = 1.0;
+constexpr int kMostSteps = 30;
+// Trust region, in standard deviations of each unknown alone, after a step without one has failed.
+constexpr double kShort = 1.0;
+// Steps from there that fail one after the other: the next would be a thousandth of it.
+constexpr int kRejectedShort = 5;
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// S = F'F by eigenvalues: S may be singular where the data tell nothing. Gives F and F^-T g (within its
+/// range).
+struct Factor {
+  MatrixXd F;
+  VectorXd r;
+};
+Factor factor(const MatrixXd& S, const VectorXd& g) {
+  const VectorXd scale = S.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * S * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
+  const VectorXd h = eigen.eigenvectors().transpose() * scale.cwiseInverse().asDiagonal() * g;
+  VectorXd root(h.size()), r(h.size());
+  const double smallest = 1e-13 * eigen.eigenvalues().maxCoeff();
+  for (Eigen::Index i = 0; i < h.size(); ++i) {
+    const double lambda = eigen.eigenvalues()[i];
+    root[i] = lambda > smallest ? std::sqrt(lambda) : 0.0;
+    r[i] = root[i] > 0 ? h[i] / root[i] : 0.0;
+  }
+  return {root.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal(), r};
+}
+
+// Samples that the cost is a sum over: about one each near the minimum.
+double samples_of(const FlightRecord& record) {
+  double samples = 1;
+  for (const FlightArc& arc : record.arcs)
+    samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
+  return samples;
+}
+
+// Where the last linearisation is at u already, only the process noise can have changed.
+void linearize_at(FlightSmoother& smoother, const VectorXd& u) {
+  if (smoother.stands_at(u))
+    smoother.relinearize();
+  else
+    smoother.linearize(u);
+}
+
+// The smoother as residuals of the shared unknowns, for Ceres: r'r is the cost, J'J the information.
+class SharedResiduals {
+ public:
+  explicit SharedResiduals(FlightSmoother& smoother) : smoother_(&smoother) {}
+
+  bool operator()(const VectorXd& u, VectorXd& r, MatrixXd* J) {
+    const Theta& theta = smoother_->theta();
+    const int n = theta.size();
+    if (!theta.possible(u)) return false;
+    if (last_.size() == 0 || u != last_) linearize_at(*smoother_, u);
+    last_ = u;
+    const ReducedSystem& system = smoother_->reduced();
+    if (!std::isfinite(system.cost) || !system.S.allFinite()) {
+      last_.resize(0);
+      return false;
+    }
+    if (J) smoother_->accept();
+    const Factor f = factor(system.S, system.g);
+    const PriorTerms prior = theta.prior(u);
+    r.head(n) = f.r;
+    r[n] = std::sqrt(std::max(system.cost - f.r.squaredNorm(), 0.0));
+    r.tail(n) = prior.residual;
+    if (J) {
+      J->topRows(n) = f.F;
+      J->bottomRows(n) = MatrixXd(prior.slope.asDiagonal());
+    }
+    return true;
+  }
+
+  bool promises_less_than(double fall) const {
+    return last_.size() > 0 && newton_step(*smoother_, last_).fall < fall;
+  }
+
+ private:
+  FlightSmoother* smoother_;
+  VectorXd last_;  // empty where nothing can be simulated
+};
+
+// Newton's steps where they are near the minimum, until less than `enough` is promised; gives the fall that
+// is left. It is this promise that judges a step: the cost is known only up to what the states gain by a step
+// of their own, and near the minimum that is more than the shared unknowns do.
+double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough) {
+  linearize_at(smoother, at.u);
+  smoother.accept();
+  NewtonStep step = newton_step(smoother, at.u);
+  for (int i = 0; i < kMostSteps && step.fall > enough && step.fall < kNear; ++i) {
+    const VectorXd next = at.u + step.du;
+    if (!smoother.theta().possible(next)) break;
+    smoother.linearize(next);
+    ++at.steps;
+    const NewtonStep further = newton_step(smoother, next);
+    const bool taken = further.fall < kShrinks * step.fall;
+    if (!taken) smoother.linearize(at.u);
+    smoother.accept();
+    if (taken) at.u = next;
+    step = taken ? further : newton_step(smoother, at.u);
+    if (!taken) break;
+  }
+  at.cost = smoother.reduced().cost + smoother.theta().prior(at.u).residual.squaredNorm();
+  return step.fall;
+}
+
+}  // namespace
+
+MatrixXd prior_information(const Theta& theta, const VectorXd& u) {
+  const VectorXd slope = theta.prior(u).slope;
+  // Without any prior a factor of e is allowed per standard deviation.
+  VectorXd info = slope.cwiseAbs2();
+  for (int i = 0; i < theta.size(); ++i)
+    if (slope[i] == 0) info[i] = 1e-2;
+  return info.asDiagonal();
+}
+
+MatrixXd inverse_of(const MatrixXd& M) {
+  const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
+  const MatrixXd inverse = Eigen::LDLT<MatrixXd>(scaled).solve(MatrixXd::Identity(M.rows(), M.cols()));
+  return s.asDiagonal() * inverse * s.asDiagonal();
+}
+
+NewtonStep newton_step(const FlightSmoother& smoother, const VectorXd& u) {
+  const ReducedSystem& system = smoother.reduced();
+  const PriorTerms prior = smoother.theta().prior(u);
+  const VectorXd g = system.g + prior.slope.cwiseProduct(prior.residual);
+  const VectorXd du = -inverse_of(system.S + prior_information(smoother.theta(), u)) * g;
+  return {du, -g.dot(du)};
+}
+
+SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, const TrustRegion& region) {
+  SharedResiduals residuals(smoother);
+  SteppedProblem problem;
+  problem.residuals = 2 * smoother.theta().size() + 1;
+  problem.tolerance = region.tolerance / samples_of(smoother.record());
+  problem.max_steps = region.max_steps;
+  problem.evaluate = [&](const VectorXd& u, VectorXd& r, MatrixXd* J) { return residuals(u, r, J); };
+  problem.enough = [&] { return residuals.promises_less_than(region.near); };
+  if (region.free) problem.initial_radius = 1e12, problem.most_rejected = 1;
+  SteppedMinimum best = minimise_stepped(problem, start);
+  int steps = best.steps;
+  if (region.free && best.rejected) {  // from that far it would take ten more to shrink to where a step helps
+    problem.initial_radius = kShort, problem.most_rejected = kRejectedShort;
+    best = minimise_stepped(problem, best.u);
+    steps += best.steps;
+  }
+  if (!best.ok)
+    throw DataError("the flight model cannot be simulated with these constants: check the vehicle file");
+  return {best.u, 2 * best.cost, steps};
+}
+
+SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, double enough) {
+  SharedMinimum at{start};
+  const auto trust_region = [&](double near) {
+    const int before = at.steps;
+    at = by_trust_region(smoother, at.u, {.tolerance = enough, .near = near});
+    at.steps += before;
+  };
+  double left = newton_steps(smoother, at, enough);
+  if (!(left < kNear)) {
+    trust_region(kNear);
+    left = newton_steps(smoother, at, enough);
+  }
+  if (!(left < std::max(enough, kStuck))) {
+    trust_region(0.0);
+    newton_steps(smoother, at, enough);
+  }
+  return at;
+}
+
+}  // namespace ident

@@ -1,0 +1,51 @@
+// Steps over the shared unknowns of a flight fit: Ceres' trust region from afar, Newton's near the minimum.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "ident/estimators/flight_smoother.h"
+
+namespace ident {
+
+/// Where steps over the shared unknowns ended.
+struct SharedMinimum {
+  Eigen::VectorXd u;
+  double cost = 0.0;  ///< priors included
+  int steps = 0;
+};
+
+/// To the minimum of the quadratic form of the smoother's last linearisation, priors included.
+struct NewtonStep {
+  Eigen::VectorXd du;
+  double fall = 0.0;  ///< of the cost
+};
+NewtonStep newton_step(const FlightSmoother& smoother, const Eigen::VectorXd& u);
+
+/// A step that promises less than this fall of the cost is near the minimum.
+inline constexpr double kNear = 25.0;
+
+/// When Ceres' trust region ends, and how it begins.
+struct TrustRegion {
+  double tolerance = 1e-3;  ///< fall of the cost that is not worth a step
+  double near = 0.0;        ///< a whole step promises less than this: near the minimum
+  int max_steps = 30;
+  /// Of a first radius: it would hold a step back along directions that only priors determine, which are weak
+  /// beside those that the flight does.
+  bool free = true;
+};
+/// Raises DataError where the model cannot be flown at `start`.
+SharedMinimum by_trust_region(FlightSmoother& smoother, const Eigen::VectorXd& start,
+                              const TrustRegion& region);
+
+/// The shared unknowns alone, states and noise as they are, from `start` to where no more than `enough` of a
+/// fall of the cost is promised: a trust region from afar, Newton's steps near the minimum. The smoother is
+/// linearised and accepted there.
+SharedMinimum minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& start, double enough);
+
+/// Information of the priors; weak where there is none, which keeps undetermined directions in place.
+Eigen::MatrixXd prior_information(const Theta& theta, const Eigen::VectorXd& u);
+
+/// Inverse of a symmetric positive definite matrix whose unknowns have very unlike scales.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& M);
+
+}  // namespace ident

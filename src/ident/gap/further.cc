@@ -1,0 +1,70 @@
+// Gains of a further cause, by the quadratic form and by a fit.
+#include "ident/gap/further.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ident {
+namespace {
+
+// A cause has to explain this much, in units of the noise, to be adopted: 1 % family-wise over the catalogue.
+constexpr double kLeastGain = 19.0;
+constexpr double kPerDirection = 4.0;
+
+}  // namespace
+
+double own_stretch(const QuadraticForm& form, const Candidate& cause) {
+  return stretch_of(form, cause.parameter >= 0 ? std::vector<int>{cause.parameter} : cause.directions);
+}
+
+bool Further::passes() const { return possible && honest() > kLeastGain + kPerDirection * degrees; }
+
+Further further(const Standing& at, const std::vector<int>& have, int candidate) {
+  std::vector<int> with = have;
+  with.push_back(candidate);
+  const SetGain set = gain_of(at.form, at.problem, with), now = gain_of(at.form, at.problem, have);
+  const double degrees = set.degrees - now.degrees;
+  return {candidate,
+          set.gain - now.gain,
+          set.price - now.price,
+          own_stretch(at.form, at.problem.candidates[static_cast<std::size_t>(candidate)]),
+          degrees,
+          set.physical && degrees >= 1};
+}
+
+std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& vehicle,
+                                    const std::vector<std::string>& exclude, const Standing& at_now,
+                                    int chosen, const FlightFitOptions& options) {
+  FittedModel model = with_cause(record, vehicle, at_now, chosen, options);
+  if (!stands(model)) return {};
+  InFull out{standing_at(record, vehicle, exclude, std::move(model)), {}};
+  const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
+  const std::vector<int> own = places_of({cause}, out.at.problem);
+  if (own.empty()) return out;
+  std::vector<int> others = out.at.have;
+  std::erase(others, own[0]);
+  out.own = further(out.at, others, own[0]);
+  return out;
+}
+
+bool moves_mass(const Candidate& cause) {
+  return cause.name == "cg_offset" || cause.name == "products_of_inertia" || cause.name == "parameter:m" ||
+         cause.name == "parameter:Jxx" || cause.name == "parameter:Jyy" || cause.name == "parameter:Jzz";
+}
+
+std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle& vehicle,
+                                      const std::vector<std::string>& exclude, const Standing& before,
+                                      const std::vector<Candidate>& instead_of,
+                                      const FlightFitOptions& options) {
+  const auto payload = std::ranges::find(before.problem.candidates, "payload", &Candidate::name);
+  if (payload == before.problem.candidates.end()) return {};
+  std::optional<InFull> trial =
+      tried_in_full(record, vehicle, exclude, before,
+                    static_cast<int>(payload - before.problem.candidates.begin()), options);
+  if (!trial) return {};
+  for (const int c : places_of(instead_of, trial->at.problem))
+    if (further(trial->at, trial->at.have, c).passes()) return {};
+  return trial;
+}
+
+}  // namespace ident

@@ -1,0 +1,19 @@
+// The weights of alternative sets of causes at the model that a search found.
+#pragma once
+
+#include "ident/gap/next_model.h"
+
+namespace ident {
+
+/// Weight of a set of causes.
+struct WeighedSet {
+  std::vector<int> members;
+  double log_evidence = 0.0;
+  double probability = 0.0;
+};
+
+/// Sets of at most two causes, the one found, and those with one of its members exchanged: most probable
+/// first.
+std::vector<WeighedSet> weighed_sets(const Standing& found);
+
+}  // namespace ident
