@@ -43,6 +43,12 @@ class Builder {
 
 }  // namespace
 
+double payload_reach(const Vehicle& vehicle) {
+  double farthest = 0;
+  for (const Rotor& rotor : vehicle.rotors) farthest = std::max(farthest, rotor.r_B.norm());
+  return 2 * farthest;
+}
+
 bool states_effect(const Vehicle& vehicle, std::string_view effect) {
   const std::string prefix = std::string(effect) + ".";
   return std::ranges::any_of(vehicle.parameters,
@@ -95,7 +101,8 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
       if (std::ranges::find(base, "payload.m", &FreeConstant::name) != base.end())
         build.effect(name, {"payload.m", "payload.x", "payload.y", "payload.z"}, true);
       else
-        build.effect(name, {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true);
+        build.effect(name, {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true),
+            problem.candidates.back().mass_for_shift = p[param::m] / payload_reach(vehicle);
     } else if (is(EffectId::wind)) {
       const bool drag = p[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] != 0 ||
                         p[static_cast<std::size_t>(find_parameter("parasitic_drag.C")->index)] != 0;

@@ -16,6 +16,8 @@ struct Candidate {
   int parameter = -1;           ///< the unknown whose prior it drops; -1 for an effect
   int rotor = -1;               ///< 0 based, where the effect names one
   bool positive = false;        ///< its first direction has a physical sign
+  /// Of a payload to first order: mass that it has at least for a shift of the centre of gravity, kg/m.
+  double mass_for_shift = 0.0;
 };
 
 /// Base constants followed by the directions of every effect, and the candidates over them.
@@ -24,6 +26,9 @@ struct ExtendedProblem {
   int base = 0;  ///< number of base constants
   std::vector<Candidate> candidates;
 };
+
+/// How far from the origin something may be bolted on, m: twice as far as the farthest rotor.
+double payload_reach(const Vehicle& vehicle);
 
 /// Whether the vehicle file states this effect: then it is part of the model, no cause to be found.
 bool states_effect(const Vehicle& vehicle, std::string_view effect);

@@ -35,7 +35,9 @@ Further further(const Standing& at, const std::vector<int>& have, int candidate)
 std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& vehicle,
                                     const std::vector<std::string>& exclude, const Standing& at_now,
                                     int chosen, const FlightFitOptions& options) {
-  FittedModel model = with_cause(record, vehicle, at_now, chosen, options);
+  std::vector<int> with = at_now.have;
+  with.push_back(chosen);
+  FittedModel model = with_causes(record, vehicle, at_now, with, options);
   if (!stands(model)) return {};
   InFull out{standing_at(record, vehicle, exclude, std::move(model)), {}};
   const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];

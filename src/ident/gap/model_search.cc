@@ -19,6 +19,9 @@ constexpr int kOften = 2;
 constexpr double kMaterial = 0.04;
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
+// Causes found that are no more probable than this among all sets are exchanged, so often.
+constexpr double kHardly = 0.05;
+constexpr int kExchanges = 2;
 
 }  // namespace
 
@@ -41,61 +44,86 @@ double SearchResult::scatter_of(const Candidate& adopted) const {
   return 1.0;
 }
 
-SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
-                           const SearchOptions& options) {
-  SearchResult out;
-  const auto tell = [&](double share, const std::string& what) {
-    if (options.progress) options.progress(share, what);
-  };
-  FlightFitOptions fit;
-  fit.tolerance = 0.02;
-  fit.noise_rounds = 4;
-  fit.fine_gusts = false;  // sets are compared under a dispersion that is common to them
-  tell(0.0, "the model as it is");
-  std::vector<FreeConstant> base = free_constants(vehicle, p);
-  if (!record.signals.commands) leave_out_motors(base);
-  out.base = fitted(base, {}, record, p, fit);
-  if (!stands(out.base))
-    throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
-  tell(0.15, "every cause");
-  Standing now = standing_at(record, vehicle, options.exclude, out.base);
-  if (lag_pulled_far(out.base)) {
-    tell(0.2, "the motors' lag");
-    if (auto lag = wrong_lag(record, p, out.base, now.problem, now.form, fit)) {
-      out.steps.push_back({described(lag->cause), lag->gain / own_stretch(now.form, lag->cause)});
-      out.base_problem = now.problem, out.base_form = now.form;
-      now = standing_at(record, vehicle, options.exclude, std::move(lag->model));
-    } else {
+namespace {
+
+// One search: adds causes step by step, and exchanges them where their weights speak against them.
+class Search {
+ public:
+  Search(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
+         const SearchOptions& options)
+      : record_(record), vehicle_(vehicle), p_(p), options_(options) {
+    fit_.tolerance = 0.02;
+    fit_.noise_rounds = 4;
+    fit_.fine_gusts = false;  // sets are compared under a dispersion that is common to them
+  }
+
+  SearchResult run() {
+    begin();
+    for (int left = kExchanges;; --left) {
+      while (add_one()) continue;
+      if (left == 0 || !exchange()) break;
+    }
+    // Those that still gain beside what was found.
+    for (const int c : places_of(fell_, now_.problem))
+      if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
+    out_.sets = weighed_sets(now_);
+    out_.explained = gain_of(now_.form, now_.problem, now_.have).gain / found_stretch(now_);
+    out_.best = std::move(now_.model);
+    out_.problem = std::move(now_.problem), out_.form = std::move(now_.form);
+    return std::move(out_);
+  }
+
+ private:
+  void tell(double share, const std::string& what) const {
+    if (options_.progress) options_.progress(share, what);
+  }
+  double done() const { return 0.2 + 0.2 * static_cast<double>(out_.steps.size()); }
+  const Candidate& candidate(int c) const { return now_.problem.candidates[static_cast<std::size_t>(c)]; }
+  Standing at(FittedModel model) const {
+    return standing_at(record_, vehicle_, options_.exclude, std::move(model));
+  }
+  void adopt(const Candidate& cause, InFull next, double gain) {
+    out_.steps.push_back({described(cause), gain});
+    now_ = std::move(next.at);
+  }
+
+  // The model as it is, with the motors' lag looked at first where it was pulled far.
+  void begin() {
+    tell(0.0, "the model as it is");
+    std::vector<FreeConstant> base = free_constants(vehicle_, p_);
+    if (!record_.signals.commands) leave_out_motors(base);
+    out_.base = fitted(base, {}, record_, p_, fit_);
+    if (!stands(out_.base))
+      throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
+    tell(0.15, "every cause");
+    now_ = at(out_.base);
+    if (lag_pulled_far(out_.base)) {
+      tell(0.2, "the motors' lag");
+      if (auto lag = wrong_lag(record_, p_, out_.base, now_.problem, now_.form, fit_)) {
+        out_.steps.push_back({described(lag->cause), lag->gain / own_stretch(now_.form, lag->cause)});
+        out_.base_problem = now_.problem, out_.base_form = now_.form;
+        now_ = at(std::move(lag->model));
+        return;
+      }
       // Speeds that a missing cause puts off their commands make the motors seem slow, and then no cause that
       // acts through the commands is seen: it is looked for at the lag stated.
-      FittedModel held = with_lag_held(base, record, p, fit);
-      if (stands(held)) {
-        out.base = held;
-        now = standing_at(record, vehicle, options.exclude, std::move(held));
-      }
+      FittedModel held = with_lag_held(base, record_, p_, fit_);
+      if (stands(held)) out_.base = held, now_ = at(std::move(held));
     }
+    out_.base_problem = now_.problem, out_.base_form = now_.form;
   }
-  if (out.steps.empty()) out.base_problem = now.problem, out.base_form = now.form;
-  std::vector<Candidate> tried;         // and found no better where they act
-  std::vector<Candidate> fell;          // whose fit ran away
-  std::optional<Standing> before_mass;  // where no cause that moves masses was in the model
-  std::size_t steps_before_mass = 0;
-  const auto adopt = [&](std::string name, InFull next, double gain) {
-    out.steps.push_back({std::move(name), gain});
-    now = std::move(next.at);
-  };
-  while (static_cast<int>(out.steps.size()) < options.most_causes) {
-    const double done = 0.2 + 0.2 * static_cast<double>(out.steps.size());
+
+  bool add_one() {
+    if (static_cast<int>(out_.steps.size()) >= options_.most_causes) return false;
     std::vector<Further> passed;
     Further uneven;  // gains most, but a size that seems to change from block to block
-    for (int c = 0; c < static_cast<int>(now.problem.candidates.size()); ++c) {
-      if (std::ranges::find(now.have, c) != now.have.end()) continue;
-      const Candidate& cause = now.problem.candidates[static_cast<std::size_t>(c)];
-      const auto is_it = [&](const Candidate& t) { return same(t, cause); };
-      if (std::ranges::any_of(fell, is_it)) continue;
-      const Further f = further(now, now.have, c);
+    for (int c = 0; c < static_cast<int>(now_.problem.candidates.size()); ++c) {
+      if (std::ranges::find(now_.have, c) != now_.have.end()) continue;
+      const auto is_it = [&](const Candidate& t) { return same(t, candidate(c)); };
+      if (std::ranges::any_of(fell_, is_it)) continue;
+      const Further f = further(now_, now_.have, c);
       if (f.passes()) passed.push_back(f);
-      if (f.possible && f.gain > uneven.gain && std::ranges::none_of(tried, is_it)) uneven = f;
+      if (f.possible && f.gain > uneven.gain && std::ranges::none_of(tried_, is_it)) uneven = f;
     }
     Further best;
     if (!passed.empty()) {
@@ -105,56 +133,101 @@ SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, c
     }
     // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
     // where it acts.
-    if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried.size() < 2) {
-      const Candidate cause = now.problem.candidates[static_cast<std::size_t>(uneven.candidate)];
-      tell(done + 0.05, described(cause));
-      auto trial = tried_in_full(record, vehicle, options.exclude, now, uneven.candidate, fit);
+    if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried_.size() < 2) {
+      const Candidate cause = candidate(uneven.candidate);
+      tell(done() + 0.05, described(cause));
+      auto trial = tried_in_full(record_, vehicle_, options_.exclude, now_, uneven.candidate, fit_);
       if (!trial) {
-        fell.push_back(cause);
-        continue;
+        fell_.push_back(cause);
+        return true;
       }
       const double gain = trial->own.honest();
       if (trial->own.passes() && gain > best.honest()) {
-        adopt(described(cause), std::move(*trial), gain);
-        continue;
+        adopt(cause, std::move(*trial), gain);
+        return true;
       }
-      tried.push_back(cause);
+      tried_.push_back(cause);
     }
     double found = 0;
-    for (const SearchStep& s : out.steps) found += s.gain;
-    const bool often = static_cast<int>(out.steps.size()) >= kOften;
-    if (best.candidate < 0 || (often && best.honest() < kMaterial * found)) break;
-    const Candidate chosen = now.problem.candidates[static_cast<std::size_t>(best.candidate)];
-    if (moves_mass(chosen) && before_mass) {
-      tell(done + 0.1, "payload");
-      std::vector<Candidate> moving{chosen};
-      std::ranges::copy_if(now.model.adopted, std::back_inserter(moving), moves_mass);
-      auto payload = payload_instead(record, vehicle, options.exclude, *before_mass, moving, fit);
-      before_mass.reset();
-      if (payload) {
-        out.steps.resize(steps_before_mass);
-        const double gain = payload->own.honest();
-        adopt("payload", std::move(*payload), gain);
-        continue;
-      }
-    }
-    tell(done + 0.1, described(chosen));
-    auto next = tried_in_full(record, vehicle, options.exclude, now, best.candidate, fit);
+    for (const SearchStep& s : out_.steps) found += s.gain;
+    const bool often = static_cast<int>(out_.steps.size()) >= kOften;
+    if (best.candidate < 0 || (often && best.honest() < kMaterial * found)) return false;
+    const Candidate chosen = candidate(best.candidate);
+    if (moves_mass(chosen) && take_payload_instead(chosen)) return true;
+    tell(done() + 0.1, described(chosen));
+    auto next = tried_in_full(record_, vehicle_, options_.exclude, now_, best.candidate, fit_);
     if (!next) {
-      fell.push_back(chosen);
-      continue;
+      fell_.push_back(chosen);
+      return true;
     }
-    if (moves_mass(chosen) && std::ranges::none_of(now.model.adopted, moves_mass))
-      before_mass = now, steps_before_mass = out.steps.size();
-    adopt(described(chosen), std::move(*next), best.honest());
+    if (moves_mass(chosen) && std::ranges::none_of(now_.model.adopted, moves_mass))
+      before_mass_ = now_, steps_before_mass_ = out_.steps.size();
+    adopt(chosen, std::move(*next), best.honest());
+    return true;
   }
-  // Those that still gain beside what was found.
-  for (const int c : places_of(fell, now.problem))
-    if (further(now, now.have, c).passes())
-      out.ran_away.push_back(described(now.problem.candidates[static_cast<std::size_t>(c)]));
-  out.sets = weighed_sets(now);
-  out.best = std::move(now.model), out.problem = std::move(now.problem), out.form = std::move(now.form);
-  return out;
+
+  // One payload in place of all causes that move masses, `next` among them.
+  bool take_payload_instead(const Candidate& next) {
+    if (!before_mass_) return false;
+    tell(done() + 0.1, "payload");
+    std::vector<Candidate> moving{next};
+    std::ranges::copy_if(now_.model.adopted, std::back_inserter(moving), moves_mass);
+    auto payload = payload_instead(record_, vehicle_, options_.exclude, *before_mass_, moving, fit_);
+    before_mass_.reset();
+    if (!payload) return false;
+    out_.steps.resize(steps_before_mass_);
+    const double gain = payload->own.honest();
+    out_.steps.push_back({"payload", gain});
+    now_ = std::move(payload->at);
+    return true;
+  }
+
+  // Where the weights speak against the causes found: the set that they prefer, if they still do with it in
+  // the model. What came first was chosen with the others missing.
+  bool exchange() {
+    if (now_.have.empty()) return false;
+    const std::vector<WeighedSet> sets = weighed_sets(now_);
+    double own = 0;
+    for (const WeighedSet& set : sets)
+      if (std::ranges::includes(set.members, now_.have)) own += set.probability;
+    if (own > kHardly) return false;
+    std::string names;
+    for (const int c : sets[0].members) names += (names.empty() ? "" : ", ") + described(candidate(c));
+    tell(done(), names);
+    FittedModel model = with_causes(record_, vehicle_, now_, sets[0].members, fit_);
+    if (!stands(model)) return false;
+    const std::vector<Candidate> before = now_.model.adopted;
+    Standing there = at(std::move(model));
+    if (!(log_odds(there, there.have, places_of(before, there.problem)) > 0)) return false;
+    now_ = std::move(there);
+    before_mass_.reset();
+    out_.steps.clear();
+    for (const int c : now_.have) {
+      std::vector<int> others = now_.have;
+      std::erase(others, c);
+      out_.steps.push_back({described(candidate(c)), further(now_, others, c).honest()});
+    }
+    return true;
+  }
+
+  const FlightRecord& record_;
+  const Vehicle& vehicle_;
+  const std::vector<double>& p_;
+  const SearchOptions& options_;
+  FlightFitOptions fit_;
+  Standing now_;
+  std::vector<Candidate> tried_;         // and found no better where they act
+  std::vector<Candidate> fell_;          // whose fit ran away
+  std::optional<Standing> before_mass_;  // where no cause that moves masses was in the model
+  std::size_t steps_before_mass_ = 0;
+  SearchResult out_;
+};
+
+}  // namespace
+
+SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
+                           const SearchOptions& options) {
+  return Search(record, vehicle, p, options).run();
 }
 
 }  // namespace ident

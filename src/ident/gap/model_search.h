@@ -20,6 +20,7 @@ struct SearchResult {
   QuadraticForm base_form;
   std::vector<WeighedSet> sets;  ///< most probable first
   std::vector<SearchStep> steps;
+  double explained = 0.0;  ///< what the causes found gain together under the noise they leave, for colour
   std::vector<std::string>
       ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 

@@ -10,6 +10,24 @@ namespace {
 
 constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found anew with the cause
 
+// The constant of a new cause starts at the step of the quadratic form, where that has it. A payload's place
+// follows from the centre of gravity that it moves.
+void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& problem,
+               const Eigen::VectorXd& step, const std::vector<double>& at, double reach) {
+  for (const int i : cause.directions) {
+    const FreeConstant& d = problem.constants[static_cast<std::size_t>(i)];
+    const double moved = d.start + d.scale * step[i];
+    if (d.name == c.name) c.start = moved;
+    if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
+        d.name.substr(9) == c.name.substr(7)) {
+      const double mass = std::max(problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
+                                       std::abs(step[cause.directions[0]]),
+                                   1e-3 * at[param::m]);
+      c.start = std::clamp(moved * at[param::m] / mass, -reach, reach);
+    }
+  }
+}
+
 }  // namespace
 
 Standing standing_at(const FlightRecord& record, const Vehicle& vehicle,
@@ -32,35 +50,34 @@ std::vector<int> places_of(const std::vector<Candidate>& causes, const ExtendedP
   return places;
 }
 
-FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now, int chosen,
-                       const FlightFitOptions& options) {
-  const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
-  std::vector<int> with = at_now.have;
-  with.push_back(chosen);
-  const SetGain set = gain_of(at_now.form, at_now.problem, with);
-  const std::vector<double> at = at_now.model.theta->p(at_now.model.fit.u);
-  std::vector<FreeConstant> constants = at_now.model.constants;
-  for (FreeConstant& c : constants) c.start = at[static_cast<std::size_t>(c.index)];
-  for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
-    if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
-    for (const int i : cause.directions) {
-      const FreeConstant& d = at_now.problem.constants[static_cast<std::size_t>(i)];
-      const double moved = d.start + d.scale * set.step[i];
-      if (d.name == c.name) c.start = moved;
-      if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
-          d.name.substr(9) == c.name.substr(7)) {
-        const double mass =
-            std::max(at_now.problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
-                         std::abs(set.step[cause.directions[0]]),
-                     1e-3 * at[param::m]);
-        c.start = std::clamp(moved * at[param::m] / mass, -0.3, 0.3);
-      }
-    }
-    c.adopted = true;
-    constants.push_back(c);
+FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
+                        const std::vector<int>& causes, const FlightFitOptions& options) {
+  const SetGain set = gain_of(at_now.form, at_now.problem, causes);
+  std::vector<double> at = at_now.model.theta->p(at_now.model.fit.u);
+  std::vector<FreeConstant> constants;
+  for (FreeConstant c : at_now.model.constants) {
+    c.start = at[static_cast<std::size_t>(c.index)];
+    if (!c.adopted) constants.push_back(c);
   }
-  std::vector<Candidate> adopted = at_now.model.adopted;
-  adopted.push_back(cause);
+  std::vector<Candidate> adopted;
+  for (const int chosen : causes) {
+    const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
+    adopted.push_back(cause);
+    for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
+      if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
+      const auto had = std::ranges::find(at_now.model.constants, c.name, &FreeConstant::name);
+      if (had != at_now.model.constants.end())
+        c = *had, c.start = at[static_cast<std::size_t>(c.index)];
+      else
+        set_start(c, cause, at_now.problem, set.step, at, payload_reach(vehicle));
+      c.adopted = true;
+      constants.push_back(c);
+    }
+  }
+  // What is dropped is not there.
+  for (const FreeConstant& c : at_now.model.constants)
+    if (c.adopted && std::ranges::find(constants, c.name, &FreeConstant::name) == constants.end())
+      at[static_cast<std::size_t>(c.index)] = find_parameter(c.name)->null_value;
   FlightFitOptions again = options;
   // Under the noise that all causes together leave, one alone of several strong ones would bend the model:
   // then what is missing still passes for gusts.

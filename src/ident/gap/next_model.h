@@ -24,10 +24,10 @@ bool same(const Candidate& a, const Candidate& b);
 /// Where the candidates of a problem have those causes.
 std::vector<int> places_of(const std::vector<Candidate>& causes, const ExtendedProblem& problem);
 
-/// The model with one more cause, `chosen` of the problem's candidates: its constants at their fitted values,
-/// the new ones at the step of the quadratic form.
-FittedModel with_cause(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now, int chosen,
-                       const FlightFitOptions& options);
+/// The model with these causes, of the problem's candidates: constants that it has at their fitted values,
+/// new ones at the step of the quadratic form, those of a cause that is left out at what they are without it.
+FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
+                        const std::vector<int>& causes, const FlightFitOptions& options);
 
 /// The model as it is with the motors' lag where it was stated; its constants keep the priors that were
 /// stated.

@@ -70,6 +70,19 @@ std::vector<int> base_unknowns(const QuadraticForm& f, const ExtendedProblem& pr
   return free;
 }
 
+// Least of the first direction of a candidate with a physical sign. A payload hangs within reach, so the
+// centre of gravity that it moves says how heavy it is at least; by its shift in the plane of the rotors,
+// which flight tells well.
+double least_of(const Candidate& candidate, const ExtendedProblem& problem, const VectorXd& step) {
+  if (candidate.mass_for_shift == 0) return 0.0;
+  const auto scale = [&](std::size_t k) {
+    return problem.constants[static_cast<std::size_t>(candidate.directions[k])].scale;
+  };
+  const double shift =
+      std::hypot(scale(1) * step[candidate.directions[1]], scale(2) * step[candidate.directions[2]]);
+  return candidate.mass_for_shift * shift / scale(0);
+}
+
 }  // namespace
 
 QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,
@@ -192,13 +205,14 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     const Candidate& candidate = problem.candidates[static_cast<std::size_t>(c)];
     if (!candidate.positive || candidate.directions.empty()) continue;
     const int i = candidate.directions[0];
-    if (with.step[i] - form.null[i] >= 0) continue;
+    const double least = least_of(candidate, problem, with.step - form.null);
+    if (with.step[i] - form.null[i] >= least) continue;
     if (candidate.directions.size() == 1) {
       out.physical = false;
       continue;
     }
     // A payload too light to be weighed: its mass stays at the bound, its place may still show.
-    off.emplace_back(i, form.null[i]);
+    off.emplace_back(i, form.null[i] + least);
     std::erase(free, i);
     const double price = with.price;
     with = minimum(form, free, off, dropped, own - 1);

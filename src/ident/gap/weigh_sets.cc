@@ -22,15 +22,26 @@ double evidence(const SetGain& set, double stretch) {
 
 }  // namespace
 
+double found_stretch(const Standing& at) {
+  double common = 1;
+  for (const int c : at.have)
+    common = std::max(common, own_stretch(at.form, at.problem.candidates[static_cast<std::size_t>(c)]));
+  return common;
+}
+
+double log_odds(const Standing& at, const std::vector<int>& one, const std::vector<int>& other) {
+  const double common = found_stretch(at);
+  return evidence(gain_of(at.form, at.problem, one), common) -
+         evidence(gain_of(at.form, at.problem, other), common);
+}
+
 std::vector<WeighedSet> weighed_sets(const Standing& at) {
   std::vector<WeighedSet> out;
   const int n = static_cast<int>(at.problem.candidates.size());
   std::vector<std::vector<int>> sets{{}};
   const std::vector<int>& found = at.have;
   std::vector<std::pair<double, int>> singles;
-  double common = 1;
-  for (const int c : found)
-    common = std::max(common, own_stretch(at.form, at.problem.candidates[static_cast<std::size_t>(c)]));
+  const double common = found_stretch(at);
   for (int c = 0; c < n; ++c) {
     sets.push_back({c});
     singles.emplace_back(-evidence(gain_of(at.form, at.problem, {c}), common), c);

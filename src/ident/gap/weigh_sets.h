@@ -12,6 +12,12 @@ struct WeighedSet {
   double probability = 0.0;
 };
 
+/// By how much colour inflates what the causes found gain: the most of them.
+double found_stretch(const Standing& at);
+
+/// Log odds of one set of causes against another where a search stands.
+double log_odds(const Standing& at, const std::vector<int>& one, const std::vector<int>& other);
+
 /// Sets of at most two causes, the one found, and those with one of its members exchanged: most probable
 /// first.
 std::vector<WeighedSet> weighed_sets(const Standing& found);
