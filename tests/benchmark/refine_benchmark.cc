@@ -15,6 +15,7 @@
 
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_fit_steps.h"
+#include "ident/estimators/instruction_set.h"
 #include "ident/io/read_flight_log.h"
 #include "ident/io/vehicle_file.h"
 #include "plain_fit.h"

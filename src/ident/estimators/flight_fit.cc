@@ -15,9 +15,24 @@ constexpr double kHuber = 4.0;  // standard deviations beyond which a residual c
 constexpr double kWorthAStep = 0.01;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
+// A mean square of residuals, in variances, so large that the model is far from any minimum, and what is made
+// of it for the first steps.
+constexpr double kFar = 1e4;
+constexpr double kCalm = 10.0;
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Very far from the minimum, steps follow what noise there is against everything that was known beforehand,
+// to where chance takes them. Noise as large as the residuals lets the first ones keep to it; rounds of noise
+// bring it down again.
+void calm(FlightSmoother& smoother) {
+  const double square = smoother.reduced().cost / samples_of(smoother.record());
+  if (!(square > kFar)) return;
+  NoiseModel noise = smoother.noise();
+  for (double& sigma : noise.sigma) sigma *= std::sqrt(square / kCalm);
+  smoother.set_noise(noise);
+}
 
 // Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
 MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
@@ -54,6 +69,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 1);
+  if (options.estimate_noise) calm(*smoother);
   const auto restart = [&] {
     smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
     smoother->set_huber(options.robust ? kHuber : 1e9);

@@ -46,14 +46,6 @@ Factor factor(const MatrixXd& S, const VectorXd& g) {
   return {root.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal(), r};
 }
 
-// Samples that the cost is a sum over: about one each near the minimum.
-double samples_of(const FlightRecord& record) {
-  double samples = 1;
-  for (const FlightArc& arc : record.arcs)
-    samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
-  return samples;
-}
-
 // Where the last linearisation is at u already, only the process noise can have changed.
 void linearize_at(FlightSmoother& smoother, const VectorXd& u) {
   if (smoother.stands_at(u))
@@ -125,6 +117,13 @@ double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough) 
 }
 
 }  // namespace
+
+double samples_of(const FlightRecord& record) {
+  double samples = 1;
+  for (const FlightArc& arc : record.arcs)
+    samples += static_cast<double>(std::ranges::count_if(arc.y, [](double y) { return std::isfinite(y); }));
+  return samples;
+}
 
 MatrixXd prior_information(const Theta& theta, const VectorXd& u) {
   const VectorXd slope = theta.prior(u).slope;

@@ -14,6 +14,9 @@ struct SharedMinimum {
   int steps = 0;
 };
 
+/// Samples that the cost is a sum over: about one each near the minimum.
+double samples_of(const FlightRecord& record);
+
 /// To the minimum of the quadratic form of the smoother's last linearisation, priors included.
 struct NewtonStep {
   Eigen::VectorXd du;

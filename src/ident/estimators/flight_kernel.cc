@@ -1,6 +1,8 @@
 // Chooses the flight kernel's instruction set at run time.
 #include "ident/estimators/flight_kernel.h"
 
+#include "ident/estimators/instruction_set.h"
+
 namespace ident {
 
 void evaluate_chunk_residuals(const ChunkTask& task, ChunkResult& result);
@@ -15,24 +17,15 @@ namespace {
 using Kernel = void (*)(const ChunkTask&, ChunkResult&);
 
 Kernel kernel_named(std::string_view isa) {
-  if (isa == "baseline") return evaluate_chunk_baseline;
+  if (!runs_here(isa)) return nullptr;
 #if defined(__x86_64__)
-  if (isa == "avx2" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    return evaluate_chunk_avx2;
-  if (isa == "avx512" && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
-    return evaluate_chunk_avx512;
+  if (isa == "avx2") return evaluate_chunk_avx2;
+  if (isa == "avx512") return evaluate_chunk_avx512;
 #endif
-  return nullptr;
+  return evaluate_chunk_baseline;
 }
 
 }  // namespace
-
-std::string_view best_isa() {
-  for (const std::string_view isa : {"avx512", "avx2"})
-    if (kernel_named(isa)) return isa;
-  return "baseline";
-}
 
 void evaluate_chunk(const ChunkTask& task, ChunkResult& result) {
   static const Kernel with_slopes = kernel_named(best_isa());

@@ -84,6 +84,5 @@ void evaluate_chunk(const ChunkTask& task, ChunkResult& result);
 
 /// The same by name, for tests and the benchmark: baseline, avx2, avx512. False when the machine lacks it.
 bool evaluate_chunk_with(std::string_view isa, const ChunkTask& task, ChunkResult& result);
-std::string_view best_isa();
 
 }  // namespace ident

@@ -13,6 +13,7 @@
 #include <functional>
 #include <vector>
 
+#include "ident/estimators/flight_chunk_maps.h"
 #include "ident/estimators/flight_noise.h"
 #include "ident/estimators/flight_record.h"
 #include "ident/estimators/flight_theta.h"
@@ -118,12 +119,7 @@ class FlightSmoother {
     std::vector<Eigen::VectorXd> f;
   };
 
-  // What a chunk passes to the next one.
-  struct Carry {
-    Eigen::MatrixXd D, B;
-    Eigen::VectorXd g;
-    bool on = false;
-  };
+  struct ArcElimination;
 
   ChunkTask task(std::size_t k, const Eigen::VectorXd& u, const std::vector<double>& p,
                  const std::vector<std::vector<Seed>>& seeds) const;
@@ -138,10 +134,10 @@ class FlightSmoother {
   Eigen::VectorXd outside(std::size_t k) const;
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
-  Eigen::MatrixXd link_slope(std::size_t k) const;
+  void link_slope(std::size_t k, chunk::RowMatrix& E) const;
   void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum);
-  void add_link(std::size_t k, Eigen::MatrixXd& D, Eigen::MatrixXd& B, Eigen::VectorXd& f, Eigen::MatrixXd& U,
-                Carry& carry, ReducedSystem& sum) const;
+  void add_start(std::size_t k, ArcElimination& arc) const;
+  void add_link(std::size_t k, ArcElimination& arc) const;
   std::vector<Eigen::VectorXd> optimum() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void posterior_covariances(Elimination& el) const;

@@ -2,7 +2,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "ident/estimators/dense_rows.h"
 #include "ident/estimators/flight_chunk_maps.h"
 #include "ident/estimators/flight_smoother.h"
 
@@ -83,24 +85,26 @@ MatrixXd FlightSmoother::profile(std::size_t k) const {
   return P;
 }
 
-// Derivative of the defect of chunk k over its state and the shared unknowns, the next state held.
-MatrixXd FlightSmoother::link_slope(std::size_t k) const {
-  const Index n = record_->layout.size, m = theta_->size();
+// Derivative of the defect of chunk k over its state, from column 0 on, and the shared unknowns, from column
+// padded(n) on; the next state held.
+void FlightSmoother::link_slope(std::size_t k, chunk::RowMatrix& E) const {
+  const Index n = record_->layout.size, m = theta_->size(), from = padded(record_->layout.size);
   const VectorXd share = carried(k);
-  MatrixXd E(n, n + shared());
-  E.leftCols(n + m) = share.asDiagonal() * chunk::E(results_[k], record_->layout.size);
+  const chunk::ConstRowMap whole = chunk::E(results_[k], record_->layout.size);
+  E.leftCols(n) = share.asDiagonal() * whole.leftCols(n);
+  E.middleCols(from, m) = share.asDiagonal() * whole.rightCols(m);
   // The floor of unmeasured rotor speeds goes with km (link_weight), so what counts is the defect over km.
   const auto& constants = theta_->constants();
   const auto km = std::ranges::find(constants, static_cast<int>(param::km), &FreeConstant::index);
   if (km != constants.end() && record_->layout.motors >= 0 && !record_->signals.rotor_speeds) {
     const Index j = km - constants.begin();
     const double relative = theta_->slope(trial_u_, static_cast<int>(j)) / theta_->p(trial_u_)[param::km];
-    E.col(n + j).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
+    E.col(from + j).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
         relative * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
   }
   // The process is what is left of the acceleration beyond the profile.
-  if (!profiles_.empty()) E.rightCols(shared() - m) = profile(k + 1) - share.asDiagonal() * profile(k);
-  return E;
+  if (!profiles_.empty())
+    E.middleCols(from + m, shared() - m) = profile(k + 1) - share.asDiagonal() * profile(k);
 }
 
 // Inverse variance of the defect: what accelerations from outside win anew over a chunk, q h for rotor
@@ -141,85 +145,124 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   return W;
 }
 
-// Adds the link of chunk k to its own block, and what it means for the next one to `carry`.
-void FlightSmoother::add_link(std::size_t k, MatrixXd& D, MatrixXd& B, VectorXd& f, MatrixXd& U, Carry& carry,
-                              ReducedSystem& sum) const {
-  const Index n = record_->layout.size, m = shared();
-  const MatrixXd E = link_slope(k);
-  const VectorXd W = link_weight(k), d = defect(k), Wd = W.cwiseProduct(d);
-  const MatrixXd WE = W.asDiagonal() * E;
-  D.noalias() += E.leftCols(n).transpose() * WE.leftCols(n);
-  B.noalias() += E.leftCols(n).transpose() * WE.rightCols(m);
-  f.noalias() += E.leftCols(n).transpose() * Wd;
-  U = -WE.leftCols(n).transpose();
-  sum.S.noalias() += E.rightCols(m).transpose() * WE.rightCols(m);
-  sum.g.noalias() += E.rightCols(m).transpose() * Wd;
-  sum.cost += d.dot(Wd);
-  carry.D = W.asDiagonal();
-  carry.B = -WE.rightCols(m);
-  carry.g = -Wd;
+// One arc on its way through elimination. Matrices are kept row by row, [D | B f] over states and shared
+// unknowns, the second part from a column that is a multiple of kRowPad; the last column is the gradient.
+struct FlightSmoother::ArcElimination {
+  using Matrix = chunk::RowMatrix;
+
+  ArcElimination(int states, int unknowns)
+      : n(states),
+        m(unknowns),
+        from(padded(n)),
+        shared(padded(m + 1)),
+        own(Matrix::Zero(n, from + shared)),
+        next(own),
+        E(own),
+        WE(own),
+        U(Matrix::Zero(n, from)),
+        solved(Matrix::Zero(n, from + shared + from)),
+        sum(Matrix::Zero(m, shared)) {}
+
+  static Rows rows(Matrix& M, int column = 0) { return {M.data() + column, static_cast<int>(M.cols())}; }
+  static ConstRows rows(const Matrix& M, int column = 0) {
+    return {M.data() + column, static_cast<int>(M.cols())};
+  }
+  auto D() { return own.leftCols(n); }
+  auto B() { return own.middleCols(from, m); }
+  auto f() { return own.col(from + m); }
+  auto S() { return sum.leftCols(m); }
+  auto g() { return sum.col(m); }
+
+  int n, m, from, shared;
+  Matrix own, next;  // [D | B f] of this chunk, and what it passes to the next one
+  Matrix E, WE;      // slope of the link, and weighted, with the weighted defect
+  Matrix U;          // over the next state
+  Matrix solved;     // [U | B f | 1], then L^-1 of it, then D^-1 of it
+  Matrix sum;        // [S g]
+  double cost = 0.0;
+};
+
+// What is known of the accelerations from outside where an arc begins.
+void FlightSmoother::add_start(std::size_t k, ArcElimination& arc) const {
+  const VectorXd info = start_information(k), x = outside(k);
+  const Index own = theta_->size(), further = shared() - own;
+  arc.D().diagonal() += info;
+  arc.f() += info.cwiseProduct(x);
+  arc.cost += x.dot(info.cwiseProduct(x));
+  if (further == 0) return;
+  const MatrixXd P = profile(k), WP = info.asDiagonal() * P;
+  arc.B().rightCols(further) -= WP;
+  arc.S().bottomRightCorner(further, further) += P.transpose() * WP;
+  arc.g().tail(further) -= WP.transpose() * x;
+}
+
+// Adds the link of chunk k to its own block, and what it means for the next one to that.
+void FlightSmoother::add_link(std::size_t k, ArcElimination& arc) const {
+  const int n = arc.n, m = arc.m;
+  link_slope(k, arc.E);
+  const VectorXd W = link_weight(k), d = defect(k);
+  arc.WE = W.asDiagonal() * arc.E;
+  arc.WE.col(arc.from + m) = W.cwiseProduct(d);
+  const auto E = [&](int column) { return ArcElimination::rows(std::as_const(arc.E), column); };
+  const auto WE = [&](int column) { return ArcElimination::rows(std::as_const(arc.WE), column); };
+  const DenseRows& dense = dense_rows();
+  dense.add_products(ArcElimination::rows(arc.own), E(0), n, WE(0), arc.from + arc.shared, n, 1.0);
+  dense.add_products(ArcElimination::rows(arc.sum), E(arc.from), m, WE(arc.from), arc.shared, n, 1.0);
+  arc.cost += d.dot(W.cwiseProduct(d));
+  arc.U.leftCols(n) = -arc.WE.leftCols(n).transpose();
+  arc.next = -arc.WE;
+  arc.next.leftCols(n) = W.asDiagonal();
 }
 
 void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum) {
-  const Index n = record_->layout.size, own = theta_->size(), m = shared();
+  const int n = record_->layout.size, own = theta_->size(), m = static_cast<int>(shared());
   Elimination& el = trial_elimination_;
-  sum = {0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)};
-  const VectorXd at_start = start_information(begin);
-  Carry carry;
-  MatrixXd U;
+  ArcElimination arc(n, m);
+  const int from = arc.from, right = from + arc.shared;
+  const DenseRows& dense = dense_rows();
+  const auto solved = [&](int column) { return ArcElimination::rows(std::as_const(arc.solved), column); };
   for (std::size_t k = begin; k < end; ++k) {
     const ChunkResult& r = results_[k];
     const chunk::ConstRowMap A = chunk::A(r);
-    MatrixXd D = A.topLeftCorner(n, n), B = MatrixXd::Zero(n, m);
-    B.leftCols(own) = A.topRightCorner(n, own);
-    VectorXd f = chunk::g(r).head(n);
-    sum.S.topLeftCorner(own, own) += A.bottomRightCorner(own, own);
-    sum.g.head(own) += chunk::g(r).tail(own);
-    sum.cost += r.cost;
-    if (carry.on) {
-      D += carry.D, B += carry.B, f += carry.g;
-    } else {
-      const VectorXd x = outside(k);
-      D.diagonal() += at_start;
-      f += at_start.cwiseProduct(x);
-      sum.cost += x.dot(at_start.cwiseProduct(x));
-      if (m > own) {
-        const MatrixXd P = profile(k), WP = at_start.asDiagonal() * P;
-        B.rightCols(m - own) -= WP;
-        sum.S.bottomRightCorner(m - own, m - own) += P.transpose() * WP;
-        sum.g.tail(m - own) -= WP.transpose() * x;
-      }
+    std::swap(arc.own, arc.next);
+    const bool first = k == begin || !places_[k - 1].linked;
+    if (first) {
+      arc.own.setZero();
+      add_start(k, arc);
     }
-    carry.on = places_[k].linked;
-    if (carry.on) add_link(k, D, B, f, U, carry, sum);
-    // Scaled. Damping only for states that nothing at all determines: it would pass for information on the
-    // constants that move them.
-    const VectorXd s = D.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    MatrixXd scaled = s.asDiagonal() * D * s.asDiagonal();
-    Eigen::LLT<MatrixXd> llt(scaled);
+    arc.D() += A.topLeftCorner(n, n);
+    arc.B().leftCols(own) += A.topRightCorner(n, own);
+    arc.f() += chunk::g(r).head(n);
+    arc.S().topLeftCorner(own, own) += A.bottomRightCorner(own, own);
+    arc.g().head(own) += chunk::g(r).tail(own);
+    arc.cost += r.cost;
+    const bool linked = places_[k].linked;
+    if (linked)
+      add_link(k, arc);
+    else
+      arc.U.setZero();
+    // Damping only for states that nothing at all determines: it would pass for information on the constants
+    // that move them.
+    Eigen::LLT<ArcElimination::Matrix> llt(arc.D());
     if (llt.info() != Eigen::Success) {
-      scaled.diagonal().array() += 1e-10;
-      llt.compute(scaled);
+      arc.D().diagonal() += 1e-10 * arc.D().diagonal().cwiseMax(1e-300);
+      llt.compute(arc.D());
     }
-    const Index c = carry.on ? n : 0;
-    MatrixXd right(n, c + m + 1);
-    if (carry.on) right.leftCols(n) = s.asDiagonal() * U;
-    right.middleCols(c, m) = s.asDiagonal() * B;
-    right.col(c + m) = s.cwiseProduct(f);
-    llt.solveInPlace(right);
-    const MatrixXd solved = s.asDiagonal() * right;
-    if (carry.on) el.G[k] = solved.leftCols(n);
-    el.B[k] = solved.middleCols(c, m);
-    el.f[k] = solved.col(c + m);
-    el.D_inverse[k] = s.asDiagonal() * llt.solve(MatrixXd(s.asDiagonal()));
-    sum.S.noalias() -= B.transpose() * el.B[k];
-    sum.g.noalias() -= B.transpose() * el.f[k];
-    sum.cost -= f.dot(el.f[k]);
-    if (!carry.on) continue;
-    carry.D.noalias() -= U.transpose() * el.G[k];
-    carry.B.noalias() -= U.transpose() * el.B[k];
-    carry.g.noalias() -= U.transpose() * el.f[k];
+    const ArcElimination::Matrix& L = llt.matrixLLT();
+    arc.solved.leftCols(from) = arc.U;
+    arc.solved.middleCols(from, arc.shared) = arc.own.rightCols(arc.shared);
+    arc.solved.middleCols(right, n).setIdentity();
+    dense.forward(ArcElimination::rows(L), n, ArcElimination::rows(arc.solved), right + from);
+    dense.add_products(ArcElimination::rows(arc.sum), solved(from), m, solved(from), arc.shared, n, -1.0);
+    arc.cost -= arc.solved.col(from + m).squaredNorm();
+    if (linked) dense.add_products(ArcElimination::rows(arc.next), solved(0), n, solved(0), right, n, -1.0);
+    dense.backward(ArcElimination::rows(L), n, ArcElimination::rows(arc.solved), right + from);
+    if (linked) el.G[k] = arc.solved.leftCols(n);
+    el.B[k] = arc.solved.middleCols(from, m);
+    el.f[k] = arc.solved.col(from + m);
+    el.D_inverse[k] = arc.solved.middleCols(right, n);
   }
+  sum = {arc.cost, arc.g(), arc.S()};
 }
 
 void FlightSmoother::eliminate() {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/estimators/dense_rows.h"
 #include "ident/estimators/flight_chunk_maps.h"
 #include "ident/estimators/flight_smoother.h"
 
@@ -125,6 +126,7 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
   }
   std::vector<ScoreBlock> blocks;
+  chunk::RowMatrix E = chunk::RowMatrix::Zero(n, padded(static_cast<int>(n)) + m);
   MatrixXd T(n + m, m);
   T.bottomRows(m).setIdentity();
   for (std::size_t k = 0; k < K; ++k) {
@@ -147,7 +149,8 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     }
     if (place.linked) {
       const VectorXd W = link_weight(k);
-      const MatrixXd slope = link_slope(k) * T - dX[k + 1];
+      link_slope(k, E);
+      const MatrixXd slope = E.leftCols(n) * dX[k] + E.middleCols(padded(static_cast<int>(n)), m) - dX[k + 1];
       score.noalias() += slope.transpose() * W.cwiseProduct(defect(k));
       F.noalias() += slope.transpose() * MatrixXd(W.asDiagonal() * slope);
     }

@@ -101,6 +101,7 @@ class Search {
       tell(0.2, "the motors' lag");
       if (auto lag = wrong_lag(record_, p_, out_.base, now_.problem, now_.form, fit_)) {
         out_.steps.push_back({described(lag->cause), lag->gain / own_stretch(now_.form, lag->cause)});
+        kept_.push_back(lag->cause);
         out_.base_problem = now_.problem, out_.base_form = now_.form;
         now_ = at(std::move(lag->model));
         return;
@@ -186,15 +187,21 @@ class Search {
   // the model. What came first was chosen with the others missing.
   bool exchange() {
     if (now_.have.empty()) return false;
+    const std::vector<int> kept = places_of(kept_, now_.problem);
+    double all = 0, own = 0;
+    const WeighedSet* best = nullptr;
     const std::vector<WeighedSet> sets = weighed_sets(now_);
-    double own = 0;
-    for (const WeighedSet& set : sets)
+    for (const WeighedSet& set : sets) {
+      if (!std::ranges::includes(set.members, kept)) continue;
+      if (!best) best = &set;
+      all += set.probability;
       if (std::ranges::includes(set.members, now_.have)) own += set.probability;
-    if (own > kHardly) return false;
+    }
+    if (!best || own > kHardly * all) return false;
     std::string names;
-    for (const int c : sets[0].members) names += (names.empty() ? "" : ", ") + described(candidate(c));
+    for (const int c : best->members) names += (names.empty() ? "" : ", ") + described(candidate(c));
     tell(done(), names);
-    FittedModel model = with_causes(record_, vehicle_, now_, sets[0].members, fit_);
+    FittedModel model = with_causes(record_, vehicle_, now_, best->members, fit_);
     if (!stands(model)) return false;
     const std::vector<Candidate> before = now_.model.adopted;
     Standing there = at(std::move(model));
@@ -216,6 +223,7 @@ class Search {
   const SearchOptions& options_;
   FlightFitOptions fit_;
   Standing now_;
+  std::vector<Candidate> kept_;          // found before all others, never exchanged
   std::vector<Candidate> tried_;         // and found no better where they act
   std::vector<Candidate> fell_;          // whose fit ran away
   std::optional<Standing> before_mass_;  // where no cause that moves masses was in the model

@@ -8,18 +8,21 @@
 #include <set>
 
 #include "ident/core/format_number.h"
+#include "ident/gap/further.h"
 
 namespace ident {
 namespace {
 
 // A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
 constexpr double kMostlyClosed = 0.5;
-constexpr double kPerhapsClosed = 0.9;  // unless so much lies within the 95 % interval
+constexpr double kPerhapsClosed = 0.75;  // unless so much lies within the 95 % interval
+// And this much has to lie within that of one horizon at least: long ones count gusts, short ones noise.
+constexpr double kNearlyClosed = 0.93;
 // A generic rival that gains this much on held-out flight has seen something, and that share of what the
 // causes explain is too much for a catalogue that should be enough.
 constexpr double kRivalGain = 45.0;
 constexpr double kRivalBeside = 60.0;  // beside causes, whose own form is never quite that of the real thing
-constexpr double kRivalShare = 0.25;
+constexpr double kRivalShare = 0.12;
 constexpr double kSure = 0.8;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
 constexpr double kContradicts = 5.0;
@@ -35,6 +38,24 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
     if (std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
   }
   return names;
+}
+
+// Whether the causes found leave more of the gap than chance and their form explain.
+bool gap_remains(const std::map<double, GapClosed>& gaps) {
+  const GapClosed& gap = gaps.at(kToldHorizon);
+  if (!std::isfinite(gap.closed)) return false;
+  if (gap.closed < kMostlyClosed && gap.ci95[1] < kPerhapsClosed) return true;
+  return std::ranges::all_of(gaps, [](const auto& entry) {
+    return !std::isfinite(entry.second.closed) || entry.second.ci95[1] < kNearlyClosed;
+  });
+}
+
+// Two causes that move masses are what one thing bolted on would do. With the payload in the catalogue it was
+// tried in their place.
+bool may_be_one_payload(const SearchResult& search) {
+  const bool tried =
+      std::ranges::any_of(search.problem.candidates, [](const Candidate& c) { return c.name == "payload"; });
+  return !tried && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
 }
 
 // The constant that the flight, with the causes found, pulls furthest off its bench value, if too far. One
@@ -59,9 +80,10 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::v
 
 }  // namespace
 
-Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+Judged judge(const SearchResult& search, const std::map<double, GapClosed>& gaps, const Rival& rival,
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted) {
+  const GapClosed& gap = gaps.at(kToldHorizon);
   Judged out;
   out.effects = names_of(search.best.adopted);
   if (!search.ran_away.empty()) {
@@ -73,8 +95,6 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
                     fmt::join(search.ran_away, " or "));
     return out;
   }
-  double found = 0;
-  for (const SearchStep& step : search.steps) found += step.gain;
   if (out.effects.empty()) {
     if (rival.total() > kRivalGain) {
       out.status = "unknown";
@@ -102,9 +122,8 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     }
     return out;
   }
-  const bool remains =
-      std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed);
-  const bool better = rival.total() > std::max(kRivalBeside, kRivalShare * found);
+  const bool remains = gap_remains(gaps);
+  const bool better = rival.total() > std::max(kRivalBeside, kRivalShare * search.explained);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (remains || better) {
     out.status = "unknown";
@@ -112,7 +131,7 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     out.sentence = fmt::format(
         "A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
         fmt::join(out.effects, " with "),
-        remains ? "most of the gap remains with it"
+        remains ? fmt::format("{:.0f} % of the gap remains with it", 100 * out.remaining)
                 : "a plain regression on the flight predicts what it leaves, most in " + rival.strongest());
     out.effects.clear();
     return out;
@@ -124,6 +143,16 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
         "A gap is there that the catalogue does not explain. The nearest is {}, but with that the flight "
         "contradicts the value of {} known beforehand by {:.0f} standard deviations.",
         fmt::join(out.effects, " with "), p->name, std::abs(*p->pull));
+    out.effects.clear();
+    return out;
+  }
+  if (may_be_one_payload(search)) {
+    out.status = "unknown";
+    out.confused_with = out.effects;
+    out.sentence = fmt::format(
+        "The nearest is {}, but all of that at once is what one thing bolted on would do, and a payload was "
+        "not among the causes tried.",
+        fmt::join(out.effects, " with "));
     out.effects.clear();
     return out;
   }

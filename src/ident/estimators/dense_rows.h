@@ -1,0 +1,39 @@
+// Products and triangular solutions of small dense matrices that are kept row by row, by the best instruction
+// set of this machine: the elimination of states spends most of its time in them.
+#pragma once
+
+#include <string_view>
+
+namespace ident {
+
+/// Columns are handled in groups of so many: rows are padded to a multiple of it, and what pads is zero.
+inline constexpr int kRowPad = 8;
+constexpr int padded(int columns) { return (columns + kRowPad - 1) / kRowPad * kRowPad; }
+
+/// A matrix by its first element and the distance of its rows, both in doubles.
+struct Rows {
+  double* data = nullptr;
+  int stride = 0;
+};
+struct ConstRows {
+  const double* data = nullptr;
+  int stride = 0;
+};
+
+/// One implementation for each instruction set. `columns` are padded.
+struct DenseRows {
+  /// C += sign A'B: `inner` rows of A and B, `rows` of C.
+  void (*add_products)(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign);
+  /// L^-1 R in place of R, with L lower triangular, n x n.
+  void (*forward)(ConstRows L, int n, Rows R, int columns);
+  /// L^-T R in place of R.
+  void (*backward)(ConstRows L, int n, Rows R, int columns);
+};
+
+/// The best of this machine.
+const DenseRows& dense_rows();
+
+/// By name, for tests: baseline, avx2, avx512. Null when the machine lacks it.
+const DenseRows* dense_rows_with(std::string_view isa);
+
+}  // namespace ident

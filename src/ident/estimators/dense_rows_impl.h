@@ -1,0 +1,78 @@
+// Dense products over packs of `Isa::kWidth` doubles; templated so that each instruction set has its own.
+#pragma once
+
+#include "ident/estimators/dense_rows.h"
+
+namespace ident {
+
+template <class Isa>
+class DenseRowsOf {
+ public:
+  static constexpr DenseRows table() { return {add_products, forward, backward}; }
+
+ private:
+  static constexpr int kWidth = Isa::kWidth;
+  typedef double Pack __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+
+  static const Pack& at(const double* x) { return *reinterpret_cast<const Pack*>(x); }
+  static Pack& at(double* x) { return *reinterpret_cast<Pack*>(x); }
+
+  static void add_products(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign) {
+    int j = 0;
+    for (; j + 3 * kWidth <= columns; j += 3 * kWidth) panel<3>(C, A, rows, B, j, inner, sign);
+    for (; j < columns; j += kWidth) panel<1>(C, A, rows, B, j, inner, sign);
+  }
+
+  // J packs of columns from `column` on.
+  template <int J>
+  static void panel(Rows C, ConstRows A, int rows, ConstRows B, int column, int inner, double sign) {
+    int i = 0;
+    for (; i + 4 <= rows; i += 4) block<4, J>(C, A, i, B, column, inner, sign);
+    for (; i < rows; ++i) block<1, J>(C, A, i, B, column, inner, sign);
+  }
+
+  template <int I, int J>
+  static void block(Rows C, ConstRows A, int row, ConstRows B, int column, int inner, double sign) {
+    Pack sum[I][J] = {};
+    for (int k = 0; k < inner; ++k) {
+      const double* left = A.data + k * A.stride + row;
+      const double* right = B.data + k * B.stride + column;
+      for (int j = 0; j < J; ++j) {
+        const Pack b = at(right + j * kWidth);
+        for (int i = 0; i < I; ++i) sum[i][j] += left[i] * b;
+      }
+    }
+    for (int i = 0; i < I; ++i)
+      for (int j = 0; j < J; ++j) at(C.data + (row + i) * C.stride + column + j * kWidth) += sign * sum[i][j];
+  }
+
+  static void forward(ConstRows L, int n, Rows R, int columns) {
+    for (int column = 0; column < columns; column += kRowPad)
+      for (int i = 0; i < n; ++i)
+        solve_row(R, i, column, 0, i, L.data + i * L.stride, 1, L.data[i * L.stride + i]);
+  }
+
+  static void backward(ConstRows L, int n, Rows R, int columns) {
+    for (int column = 0; column < columns; column += kRowPad)
+      for (int i = n - 1; i >= 0; --i)
+        solve_row(R, i, column, i + 1, n, L.data + i, L.stride, L.data[i * L.stride + i]);
+  }
+
+  // Row i of R less the rows [from, to) times their coefficients, over the pivot.
+  static void solve_row(Rows R, int i, int column, int from, int to, const double* coefficient, int stride,
+                        double pivot) {
+    constexpr int J = kRowPad / kWidth;
+    double* own = R.data + i * R.stride + column;
+    Pack x[J];
+    for (int j = 0; j < J; ++j) x[j] = at(own + j * kWidth);
+    for (int k = from; k < to; ++k) {
+      const double c = coefficient[k * stride];
+      const double* other = R.data + k * R.stride + column;
+      for (int j = 0; j < J; ++j) x[j] -= c * at(other + j * kWidth);
+    }
+    const double inverse = 1.0 / pivot;
+    for (int j = 0; j < J; ++j) at(own + j * kWidth) = inverse * x[j];
+  }
+};
+
+}  // namespace ident

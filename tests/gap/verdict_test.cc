@@ -1,0 +1,133 @@
+// The rules of a verdict, one by one, on searches made by hand.
+#include "ident/gap/verdict.h"
+
+#include <gtest/gtest.h>
+
+namespace ident {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// What a search found, all else as it is where a cause explains everything.
+struct Case {
+  SearchResult search;
+  std::map<double, GapClosed> gaps;
+  Rival rival;
+  std::vector<SpectralLine> lines;
+  std::vector<Burst> jumps;
+  std::vector<Parameter> fitted;
+
+  Case(const Names& candidates, const Names& found) {
+    for (const std::string& name : candidates) search.problem.candidates.push_back({name});
+    for (const std::string& name : found) {
+      search.best.adopted.push_back({name});
+      search.steps.push_back({name, 1000.0});
+    }
+    search.explained = 1000.0 * static_cast<double>(found.size());
+    closes({0.9, 1.0}, 0.97);
+  }
+  void closes(std::array<double, 2> ci95, double closed) {
+    for (const double horizon : {0.1, 0.5, 1.0}) gaps[horizon] = {closed, ci95, 10.0, 1.1, 1.0};
+  }
+  void weighs(const std::vector<int>& members, double probability) {
+    search.sets.push_back({members, 0.0, probability});
+  }
+  Judged judged() const { return judge(search, gaps, rival, lines, jumps, fitted); }
+};
+
+TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
+  Case c({"rotor_drag"}, {});
+  EXPECT_EQ(c.judged().status, "none");
+  c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.jumps.clear();
+  c.lines.push_back({"az", 36.0, 20.0, 0.3});
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.lines.clear();
+  c.rival.gain[2] = 40.0;
+  EXPECT_EQ(c.judged().status, "none");
+  c.rival.sensors.emplace_back("r", 20.0);
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "unknown");
+  EXPECT_NE(seen.sentence.find("Fz"), std::string::npos) << seen.sentence;
+}
+
+TEST(Verdict, ACauseBesideTheOneFoundIsNoRivalAndOneInItsPlaceIs) {
+  Case c({"rotor_drag", "cg_offset", "payload"}, {"cg_offset"});
+  c.weighs({1}, 0.3);
+  c.weighs({0, 1}, 0.7);
+  const Judged beside = c.judged();
+  EXPECT_EQ(beside.status, "identified");
+  EXPECT_EQ(beside.effects, Names{"cg_offset"});
+  EXPECT_TRUE(beside.confused_with.empty());
+  c.search.sets.clear();
+  c.weighs({1}, 0.6);
+  c.weighs({2}, 0.4);
+  const Judged instead = c.judged();
+  EXPECT_EQ(instead.status, "ambiguous");
+  EXPECT_EQ(instead.effects, Names{"cg_offset"});
+  EXPECT_EQ(instead.confused_with, Names{"payload"});
+}
+
+TEST(Verdict, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIsExplained) {
+  Case c({"rotor_drag"}, {"rotor_drag"});
+  c.weighs({0}, 1.0);
+  c.rival.gain[0] = 100.0;  // a tenth of what the cause explains
+  EXPECT_EQ(c.judged().status, "identified");
+  c.rival.gain[0] = 200.0;
+  const Judged left = c.judged();
+  EXPECT_EQ(left.status, "unknown");
+  EXPECT_TRUE(left.effects.empty());
+  EXPECT_EQ(left.confused_with, Names{"rotor_drag"});
+}
+
+TEST(Verdict, AGapThatClosesOverNoHorizonIsUnknown) {
+  Case c({"rotor_drag"}, {"rotor_drag"});
+  c.weighs({0}, 1.0);
+  c.closes({0.78, 0.9}, 0.85);
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.gaps[0.1].ci95 = {0.8, 0.99};  // gusts may hide it over longer ones
+  EXPECT_EQ(c.judged().status, "identified");
+  c.gaps[0.5] = {0.2, {0.0, 0.4}, 10.0, 8.0, 1.0};
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, AContradictedBenchValueMakesItUnknownUnlessItIsTheCause) {
+  Case c({"cg_offset", "parameter:kT"}, {"cg_offset"});
+  c.weighs({0}, 1.0);
+  Parameter kT;
+  kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
+  kT.pull = 6.0, kT.from_flight = 0.9;
+  c.fitted = {kT};
+  const Judged against = c.judged();
+  EXPECT_EQ(against.status, "unknown");
+  EXPECT_NE(against.sentence.find("kT"), std::string::npos) << against.sentence;
+  c.search.best.adopted.push_back({"parameter:kT"});
+  c.search.sets = {{{0, 1}, 0.0, 1.0}};
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
+TEST(Verdict, TwoCausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
+  Case c({"cg_offset", "products_of_inertia", "payload"}, {"cg_offset", "products_of_inertia"});
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.problem.candidates.pop_back();
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, TheDragThatWindBringsAlongIsNotNamed) {
+  Case c({"rotor_drag", "wind"}, {"rotor_drag", "wind"});
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().effects, Names{"wind"});
+}
+
+TEST(Verdict, ACauseWhoseModelCannotBeFlownIsNotNamed) {
+  Case c({"rotor_drag"}, {});
+  c.search.ran_away = {"rotor_drag"};
+  const Judged lost = c.judged();
+  EXPECT_EQ(lost.status, "unknown");
+  EXPECT_EQ(lost.confused_with, Names{"rotor_drag"});
+}
+
+}  // namespace
+}  // namespace ident
