@@ -14,10 +14,7 @@ namespace {
 // Loianno, Data-Driven System Identification of Quadrotors Subject to Motor Delays.
 TEST(RealRefinement, ThreeLogsGiveABrushedCrazyflieAsPublished) {
   IDENT_NEEDS_REAL_DATA(folder);
-  Vehicle vehicle;
-  for (const auto& [x, y, s] :
-       {std::tuple{0.028, 0.028, 1}, {-0.028, 0.028, -1}, {-0.028, -0.028, 1}, {0.028, -0.028, -1}})
-    vehicle.rotors.push_back({.r_B = {x, y, 0.0}, .s = s});
+  Vehicle vehicle = arplab_crazyflie();
   const auto state = [&](const char* name, double value, double std) {
     vehicle.parameters[name] = {value, std};
   };

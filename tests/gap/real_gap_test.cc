@@ -14,8 +14,7 @@ namespace {
 // end at a strange damping instead.
 TEST(RealGap, ANearlyInstantMotorIsFoundFirstAndNamedOfABrushedCrazyflie) {
   IDENT_NEEDS_REAL_DATA(folder);
-  Vehicle vehicle;
-  vehicle.rotors = layout_rotors("x", 0.0396, 0.0);
+  Vehicle vehicle = arplab_crazyflie();
   const auto state = [&](const char* name, double value, double std) {
     vehicle.parameters[name] = {value, std};
   };

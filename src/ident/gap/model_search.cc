@@ -67,7 +67,7 @@ class Search {
     for (const int c : places_of(fell_, now_.problem))
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
     out_.sets = weighed_sets(now_);
-    out_.explained = gain_of(now_.form, now_.problem, now_.have).gain / found_stretch(now_);
+    for (const SearchStep& step : steps_here()) out_.explained += step.gain;
     out_.best = std::move(now_.model);
     out_.problem = std::move(now_.problem), out_.form = std::move(now_.form);
     return std::move(out_);
@@ -208,13 +208,19 @@ class Search {
     if (!(log_odds(there, there.have, places_of(before, there.problem)) > 0)) return false;
     now_ = std::move(there);
     before_mass_.reset();
-    out_.steps.clear();
+    out_.steps = steps_here();
+    return true;
+  }
+
+  // What each cause found gains beside the others.
+  std::vector<SearchStep> steps_here() const {
+    std::vector<SearchStep> steps;
     for (const int c : now_.have) {
       std::vector<int> others = now_.have;
       std::erase(others, c);
-      out_.steps.push_back({described(candidate(c)), further(now_, others, c).honest()});
+      steps.push_back({described(candidate(c)), further(now_, others, c).honest()});
     }
-    return true;
+    return steps;
   }
 
   const FlightRecord& record_;

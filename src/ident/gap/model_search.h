@@ -20,7 +20,8 @@ struct SearchResult {
   QuadraticForm base_form;
   std::vector<WeighedSet> sets;  ///< most probable first
   std::vector<SearchStep> steps;
-  double explained = 0.0;  ///< what the causes found gain together under the noise they leave, for colour
+  double explained =
+      0.0;  ///< sum of what each cause found gains beside the others under the noise they leave
   std::vector<std::string>
       ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 

@@ -20,14 +20,15 @@ double evidence(const SetGain& set, double stretch) {
   return 0.5 * set.gain / stretch - set.price - kOddsAgainst * causes;
 }
 
-}  // namespace
-
+// By how much colour inflates what the causes found gain: the most of them.
 double found_stretch(const Standing& at) {
   double common = 1;
   for (const int c : at.have)
     common = std::max(common, own_stretch(at.form, at.problem.candidates[static_cast<std::size_t>(c)]));
   return common;
 }
+
+}  // namespace
 
 double log_odds(const Standing& at, const std::vector<int>& one, const std::vector<int>& other) {
   const double common = found_stretch(at);

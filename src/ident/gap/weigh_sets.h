@@ -12,9 +12,6 @@ struct WeighedSet {
   double probability = 0.0;
 };
 
-/// By how much colour inflates what the causes found gain: the most of them.
-double found_stretch(const Standing& at);
-
 /// Log odds of one set of causes against another where a search stands.
 double log_odds(const Standing& at, const std::vector<int>& one, const std::vector<int>& other);
 
