@@ -5,11 +5,14 @@
 
 #include <algorithm>
 
+#include "ident/core/error.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/model/simulate.h"
 
 namespace ident {
 namespace {
+
+using Names = std::vector<std::string>;
 
 FlightLog flight_of(const Vehicle& vehicle, std::uint64_t seed) {
   SimulationOptions options;
@@ -48,6 +51,20 @@ TEST(Diagnosis, WithheldRotorDragIsNamedAndWithoutItInTheCatalogueNothingElseIs)
   GapOptions options;
   options.exclude = {"rotor_drag"};
   EXPECT_EQ(diagnose_gap(model, logs, options).result.extra["verdict"]["status"], "unknown");
+}
+
+// A path alone does not tell how the vehicle turned along it.
+TEST(Diagnosis, APathWithoutRatesAndAttitudeIsRefusedInSoManyWords) {
+  FlightLog log = flight_of(published(), 4);
+  log.w_B = {}, log.f_B = {}, log.q_WB = {}, log.Omega = {};
+  ASSERT_TRUE(log.has_position() && log.has_velocity() && log.has_commands());
+  try {
+    verdict_of(published(), log);
+    ADD_FAILURE() << "was diagnosed";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("neither rates nor attitude"), std::string::npos)
+        << error.what();
+  }
 }
 
 // Linearised at zero a long delay gains most and yet looks as if its size changed from moment to moment.
@@ -111,6 +128,26 @@ TEST(Diagnosis, AHeavyPayloadIsOneCauseNotTwo) {
       << found.result.extra["verdict"];
   EXPECT_NEAR(found.adopted.parameters.at("payload.m").value, m, 0.1 * m);
   EXPECT_NEAR(found.adopted.parameters.at("payload.y").value, 0.05, 0.005);
+}
+
+// With a weak rotor missing in the model a payload is a shifted centre of gravity at first sight; with both
+// in it the weights speak for the payload.
+TEST(Diagnosis, WhatWasFoundFirstIsExchangedWhereTheRestSpeaksAgainstIt) {
+  Vehicle model = published();
+  for (const char* name : {"kQ", "km"}) model.parameters.at(name).std = 0.03 * model.value(name);
+  for (const char* name : {"Jxx", "Jyy", "Jzz"}) model.parameters.at(name).std = 0.05 * model.value(name);
+  model.parameters.at("kT").std = 0.1 * model.value("kT");
+  model.parameters.at("m").std = 0.02 * model.value("m");
+  Vehicle truth = model;
+  truth.parameters["rotor_mismatch.ratio@2"] = {0.95, {}};
+  truth.parameters["payload.m"] = {0.04, {}};
+  truth.parameters["payload.x"] = {0.03, {}};
+  truth.parameters["payload.y"] = {0.01, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 2)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  Names effects = found.result.extra["verdict"]["effects"];
+  std::ranges::sort(effects);
+  EXPECT_EQ(effects, (Names{"payload", "rotor_mismatch"})) << found.result.extra["verdict"];
 }
 
 // A payload too light to be weighed shows as a shifted centre of gravity only: both are named. Where the mass

@@ -203,18 +203,20 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   record.interval = median(intervals);
   if (record.arcs.empty())
     throw DataError("no flight in these logs: no uninterrupted part of 0.3 s or more with turning rotors");
-  const Signals& logged = record.signals;
-  const bool turning = logged.rates || logged.attitude, path = logged.velocity || logged.position;
-  if (!turning && !logged.force && !path)
+  if (!record.signals.rates && !record.signals.attitude && !record.signals.force &&
+      !record.signals.velocity && !record.signals.position)
     throw DataError(
         "nothing that moves was logged: rates, specific force, attitude, velocity or position are needed");
-  if (!turning && path)
-    throw DataError(
-        "neither rates nor attitude were logged: from the path alone it cannot be told how the vehicle "
-        "turned, and so not what its rotors did; log one of them");
   set_noise(record);
   set_start(record, p);
   return record;
+}
+
+void require_turning(const Signals& logged) {
+  if (!logged.rates && !logged.attitude && (logged.velocity || logged.position))
+    throw DataError(
+        "neither rates nor attitude were logged: from the path alone it cannot be told how the vehicle "
+        "turned, and so not what its rotors did; log one of them");
 }
 
 FlightRecord without_arcs(const FlightRecord& record) {

@@ -53,6 +53,10 @@ struct RecordOptions {
 FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
                                 std::span<const FlightLog> logs, const RecordOptions& options = {});
 
+/// Throws DataError where a path was logged, but nothing of how the vehicle turned along it: no fit can
+/// follow that.
+void require_turning(const Signals& logged);
+
 /// The record without its arcs.
 FlightRecord without_arcs(const FlightRecord& record);
 

@@ -184,6 +184,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   Result result;
   result.command = "flightlog";
   const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  require_turning(record.signals);
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
   if (!record.signals.commands) leave_out_motors(constants);
   FlightFitOptions fit_options;

@@ -116,6 +116,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.schema = "ident.gap/1";
   result.command = "gap";
   const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  require_turning(record.signals);
   SearchOptions search_options{options.exclude, options.most_causes, options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);
   if (options.progress) options.progress(0.9, "held-out flight");
