@@ -115,6 +115,29 @@ TEST(Verdict, TwoCausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
   EXPECT_EQ(c.judged().status, "unknown");
 }
 
+// Ten parts of a flight that disagree on the size of the first cause, and agree on that of the others.
+void disagrees(Case& c) {
+  c.search.form.scores = Eigen::MatrixXd::Zero(3, 10);
+  for (int part = 0; part < 10; ++part) {
+    const double sign = part % 2 == 0 ? 1.0 : -1.0;
+    c.search.form.scores.col(part) = sign * Eigen::Vector3d(4.0, 1.0, 1.0);
+    c.search.form.information.push_back(Eigen::Matrix3d::Identity());
+  }
+  for (int i = 0; i < 3; ++i) c.search.problem.candidates[static_cast<std::size_t>(i)].directions = {i};
+  c.weighs({0}, 1.0);
+}
+
+TEST(Verdict, AConstantOfTheVehicleThatChangesInFlightIsNotTheCause) {
+  Case geometry({"cg_offset", "rotor_drag", "imu_bias"}, {"cg_offset"});
+  disagrees(geometry);
+  EXPECT_EQ(geometry.judged().status, "unknown");
+  Case air({"rotor_drag", "cg_offset", "imu_bias"}, {"rotor_drag"});  // an equation that air follows nearly
+  disagrees(air);
+  EXPECT_EQ(air.judged().status, "identified");
+  geometry.search.form.scores.bottomRows(2) *= 4;  // what the colour of the residuals does to all
+  EXPECT_EQ(geometry.judged().status, "identified");
+}
+
 TEST(Verdict, TheDragThatWindBringsAlongIsNotNamed) {
   Case c({"rotor_drag", "wind"}, {"rotor_drag", "wind"});
   c.weighs({0, 1}, 1.0);

@@ -184,6 +184,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Json scatter = Json::object();
   for (const Candidate& c : search.best.adopted) scatter[described(c)] = search.scatter_of(c);
   result.extra["scatter"] = scatter;
+  result.extra["usual_scatter"] = search.usual_scatter();
   Json narrow = Json::array();
   for (const SpectralLine& line : lines)
     narrow.push_back(

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ident/core/error.h"
+#include "ident/estimators/statistics.h"
 #include "ident/gap/further.h"
 #include "ident/gap/wrong_lag.h"
 
@@ -42,6 +43,12 @@ double SearchResult::scatter_of(const Candidate& adopted) const {
   for (const Candidate& c : problem.candidates)
     if (same(c, adopted)) return own_stretch(form, c);
   return 1.0;
+}
+
+double SearchResult::usual_scatter() const {
+  std::vector<double> all;
+  for (const Candidate& c : problem.candidates) all.push_back(own_stretch(form, c));
+  return all.empty() ? 1.0 : median(all);
 }
 
 namespace {

@@ -29,6 +29,8 @@ struct SearchResult {
   /// Scatter of an adopted cause's value over blocks of flight, in units of what noise makes: 1 for a true
   /// cause.
   double scatter_of(const Candidate& adopted) const;
+  /// The same of all candidates, the median: what the colour of the residuals alone makes.
+  double usual_scatter() const;
 };
 
 struct SearchOptions {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -24,6 +25,8 @@ constexpr double kRivalGain = 45.0;
 constexpr double kRivalBeside = 60.0;  // beside causes, whose own form is never quite that of the real thing
 constexpr double kRivalShare = 0.12;
 constexpr double kSure = 0.8;
+// Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have.
+constexpr double kChanges = 2.8;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
 constexpr double kContradicts = 5.0;
 // And as many of the bench's own, which a flight that tells little need not reach.
@@ -56,6 +59,25 @@ bool may_be_one_payload(const SearchResult& search) {
   const bool tried =
       std::ranges::any_of(search.problem.candidates, [](const Candidate& c) { return c.name == "payload"; });
   return !tried && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
+}
+
+// Whether the value of a cause is one of the vehicle as it stands, which no flight changes. What air, battery
+// and motors do follows its equation only nearly.
+bool stays_put(const Candidate& cause) {
+  constexpr std::array nearly = {"battery_sag",       "motor_delay",      "thrust_curve",
+                                 "parameter:omega_m", "parameter:zeta_m", "parameter:km"};
+  if (std::ranges::find(nearly, cause.name) != nearly.end()) return false;
+  const EffectEntry* effect = find_effect(cause.name);
+  return !effect || (effect->info.touches & (kTouchFlow | kTouchHeight)) == 0;
+}
+
+// The cause found whose value changes from one part of the flight to the next though it should not: another
+// one acts there in its place.
+const Candidate* changing(const SearchResult& search) {
+  const double most = kChanges * std::max(search.usual_scatter(), 1.0);
+  for (const Candidate& c : search.best.adopted)
+    if (stays_put(c) && search.scatter_of(c) > most) return &c;
+  return nullptr;
 }
 
 // The constant that the flight, with the causes found, pulls furthest off its bench value, if too far. One
@@ -143,6 +165,17 @@ Judged judge(const SearchResult& search, const std::map<double, GapClosed>& gaps
         "A gap is there that the catalogue does not explain. The nearest is {}, but with that the flight "
         "contradicts the value of {} known beforehand by {:.0f} standard deviations.",
         fmt::join(out.effects, " with "), p->name, std::abs(*p->pull));
+    out.effects.clear();
+    return out;
+  }
+  if (const Candidate* cause = changing(search)) {
+    out.status = "unknown";
+    out.confused_with = out.effects;
+    out.sentence = fmt::format(
+        "A gap is there that the catalogue does not explain. The nearest is {}, but the value of {} would "
+        "have "
+        "to change from one part of the flight to the next.",
+        fmt::join(out.effects, " with "), described(*cause));
     out.effects.clear();
     return out;
   }
