@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ident/core/error.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/model/simulate.h"
 
@@ -69,6 +70,20 @@ TEST(FlightRefine, ExactLogsOfAFinerIntegratorGiveTheConstantsBackButForTheStep)
   options.noise = noise_level("none");
   const Vehicle truth = feasible();
   expect_found(refine_flight(as_measured(truth), flights(truth, options), {.validate = false}), truth, 1e-5);
+}
+
+TEST(FlightRefine, APathWithoutRatesAndAttitudeIsRefusedInSoManyWords) {
+  SimulationOptions options;
+  options.duration = 5.0;
+  std::vector<FlightLog> logs = flights(feasible(), options);
+  logs[0].w_B = {}, logs[0].f_B = {}, logs[0].q_WB = {}, logs[0].Omega = {};
+  try {
+    refine_flight(as_measured(feasible()), logs);
+    ADD_FAILURE() << "was refined";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("neither rates nor attitude"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(FlightRefine, DeadTimeThatIsNoMultipleOfTheRowsLeavesNoBias) {

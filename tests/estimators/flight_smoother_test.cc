@@ -1,4 +1,4 @@
-// Accelerations from outside: a profile of known size is found with its sign.
+// The smoother: profiles of known size, directions that nothing tells, two ways to the same system.
 #include "ident/estimators/flight_smoother.h"
 
 #include <gtest/gtest.h>
@@ -66,6 +66,50 @@ TEST(FlightSmoother, UnmeasuredRotorSpeedsAreFreeOfScale) {
   EXPECT_NEAR(slope, 0.0, 0.05);
   smoother.settle(-0.1 * along, 8);
   EXPECT_NEAR(smoother.reduced().cost, here, 0.005);
+}
+
+// Elimination and the blocks of scores go two ways to the same gradient and information: forwards over what
+// each chunk passes on, backwards through what the states do with the shared unknowns.
+void expect_blocks_add_up(FlightSmoother& smoother) {
+  const ReducedSystem system = smoother.reduced();
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(system.g.size());
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(system.g.size(), system.g.size());
+  for (const ScoreBlock& block : smoother.score_blocks(1.0))
+    score += block.score, information += block.information;
+  const Eigen::VectorXd unit = system.S.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+  EXPECT_LT((unit.asDiagonal() * (information - system.S) * unit.asDiagonal()).cwiseAbs().maxCoeff(), 1e-5);
+  // The states stand where they were: what they would still gain is not in the scores of the blocks.
+  EXPECT_LT(unit.cwiseProduct(score - system.g).cwiseAbs().maxCoeff(),
+            1e-3 * (1 + unit.cwiseProduct(system.g).cwiseAbs().maxCoeff()));
+}
+
+TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles) {
+  Vehicle vehicle = testing::published_vehicle();
+  for (const char* name : {"kT", "kQ", "Jxx", "Jyy", "Jzz"})
+    vehicle.parameters[name] = {vehicle.value(name), 0.1 * vehicle.value(name)};
+  std::vector<FlightLog> logs;
+  for (const std::uint64_t seed : {3, 4}) {
+    SimulationOptions options;
+    options.duration = 6.0, options.rate = 100.0, options.seed = seed;
+    logs.push_back(simulate_flight(vehicle, options).log);
+  }
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  for (const bool linked : {true, false})
+    for (const bool constants : {true, false}) {
+      const Theta theta(p, constants ? free_constants(vehicle, p) : std::vector<FreeConstant>{}, 2, true);
+      FlightSmoother smoother(record, theta, initial_noise(record), 0.15);
+      smoother.set_exact(true);
+      if (!linked) smoother.unlink();
+      const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+      smoother.settle(u, 6);
+      expect_blocks_add_up(smoother);
+      smoother.set_profiles(std::vector<Eigen::MatrixXd>(smoother.chunks().size(),
+                                                         Eigen::MatrixXd(Eigen::VectorXd::Unit(6, 4))));
+      smoother.relinearize();
+      smoother.accept();
+      expect_blocks_add_up(smoother);
+    }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ using Names = std::vector<std::string>;
 // What a search found, all else as it is where a cause explains everything.
 struct Case {
   SearchResult search;
-  std::map<double, GapClosed> gaps;
+  GapClosed gap;
   Rival rival;
   std::vector<SpectralLine> lines;
   std::vector<Burst> jumps;
@@ -26,13 +26,11 @@ struct Case {
     search.explained = 1000.0 * static_cast<double>(found.size());
     closes({0.9, 1.0}, 0.97);
   }
-  void closes(std::array<double, 2> ci95, double closed) {
-    for (const double horizon : {0.1, 0.5, 1.0}) gaps[horizon] = {closed, ci95, 10.0, 1.1, 1.0};
-  }
+  void closes(std::array<double, 2> ci95, double closed) { gap = {closed, ci95, 10.0, 1.1, 1.0}; }
   void weighs(const std::vector<int>& members, double probability) {
     search.sets.push_back({members, 0.0, probability});
   }
-  Judged judged() const { return judge(search, gaps, rival, lines, jumps, fitted); }
+  Judged judged() const { return judge(search, gap, rival, lines, jumps, fitted); }
 };
 
 TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
@@ -81,14 +79,17 @@ TEST(Verdict, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIsExplai
   EXPECT_EQ(left.confused_with, Names{"rotor_drag"});
 }
 
-TEST(Verdict, AGapThatClosesOverNoHorizonIsUnknown) {
+TEST(Verdict, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidSo) {
   Case c({"rotor_drag"}, {"rotor_drag"});
   c.weighs({0}, 1.0);
-  c.closes({0.78, 0.9}, 0.85);
-  EXPECT_EQ(c.judged().status, "unknown");
-  c.gaps[0.1].ci95 = {0.8, 0.99};  // gusts may hide it over longer ones
+  c.closes({0.5, 0.7}, 0.6);
+  const Judged part = c.judged();
+  EXPECT_EQ(part.status, "identified");
+  EXPECT_NEAR(part.remaining, 0.4, 1e-12);
+  EXPECT_NE(part.sentence.find("40 %"), std::string::npos) << part.sentence;
+  c.closes({0.1, 0.9}, 0.4);  // gusts may hide it
   EXPECT_EQ(c.judged().status, "identified");
-  c.gaps[0.5] = {0.2, {0.0, 0.4}, 10.0, 8.0, 1.0};
+  c.closes({0.1, 0.6}, 0.4);
   EXPECT_EQ(c.judged().status, "unknown");
 }
 

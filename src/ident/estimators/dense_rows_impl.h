@@ -1,4 +1,5 @@
 // Dense products over packs of `Isa::kWidth` doubles; templated so that each instruction set has its own.
+// Loops over packs are unrolled by order: else GCC keeps the sums in memory at -O2.
 #pragma once
 
 #include "ident/estimators/dense_rows.h"
@@ -37,12 +38,16 @@ class DenseRowsOf {
     for (int k = 0; k < inner; ++k) {
       const double* left = A.data + k * A.stride + row;
       const double* right = B.data + k * B.stride + column;
+#pragma GCC unroll 4
       for (int j = 0; j < J; ++j) {
         const Pack b = at(right + j * kWidth);
+#pragma GCC unroll 4
         for (int i = 0; i < I; ++i) sum[i][j] += left[i] * b;
       }
     }
+#pragma GCC unroll 4
     for (int i = 0; i < I; ++i)
+#pragma GCC unroll 4
       for (int j = 0; j < J; ++j) at(C.data + (row + i) * C.stride + column + j * kWidth) += sign * sum[i][j];
   }
 
@@ -64,13 +69,16 @@ class DenseRowsOf {
     constexpr int J = kRowPad / kWidth;
     double* own = R.data + i * R.stride + column;
     Pack x[J];
+#pragma GCC unroll 4
     for (int j = 0; j < J; ++j) x[j] = at(own + j * kWidth);
     for (int k = from; k < to; ++k) {
       const double c = coefficient[k * stride];
       const double* other = R.data + k * R.stride + column;
+#pragma GCC unroll 4
       for (int j = 0; j < J; ++j) x[j] -= c * at(other + j * kWidth);
     }
     const double inverse = 1.0 / pivot;
+#pragma GCC unroll 4
     for (int j = 0; j < J; ++j) at(own + j * kWidth) = inverse * x[j];
   }
 };

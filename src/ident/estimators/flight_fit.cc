@@ -19,6 +19,7 @@ constexpr int kFirstSteps = 4;
 // of it for the first steps.
 constexpr double kFar = 1e4;
 constexpr double kCalm = 10.0;
+constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise bring that down again
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -28,9 +29,9 @@ using Eigen::VectorXd;
 // bring it down again.
 void calm(FlightSmoother& smoother) {
   const double square = smoother.reduced().cost / samples_of(smoother.record());
-  if (!(square > kFar)) return;
+  if (!(square > kFar) || !std::isfinite(square)) return;
   NoiseModel noise = smoother.noise();
-  for (double& sigma : noise.sigma) sigma *= std::sqrt(square / kCalm);
+  for (double& sigma : noise.sigma) sigma *= std::sqrt(std::min(square / kCalm, kMostCalm));
   smoother.set_noise(noise);
 }
 

@@ -34,15 +34,19 @@ class PackProducts {
   void add(std::size_t from, std::size_t to, int i, int k, Pack8* sum) const {
     const auto stride = static_cast<std::size_t>(packs_);
     Pack8 s[8 * N];
+#pragma GCC unroll 16
     for (int j = 0; j < 8 * N; ++j) s[j] = sum[j];
     for (std::size_t n = from; n < to; ++n) {
       const Pack8* row = rows_ + n * stride;
       const double* left = reinterpret_cast<const double*>(row + i);
+#pragma GCC unroll 2
       for (int m = 0; m < N; ++m) {
         const Pack8 right = row[k + m];
+#pragma GCC unroll 8
         for (int j = 0; j < 8; ++j) s[8 * m + j] += left[j] * right;
       }
     }
+#pragma GCC unroll 16
     for (int j = 0; j < 8 * N; ++j) sum[j] = s[j];
   }
 

@@ -206,7 +206,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   if (!record.signals.rates && !record.signals.attitude && !record.signals.force &&
       !record.signals.velocity && !record.signals.position)
     throw DataError(
-        "nothing that moves was logged: rates, specific force, attitude, velocity or position are needed");
+        "nothing that moves was logged: rates, attitude or specific force are needed, and a path helps");
   set_noise(record);
   set_start(record, p);
   return record;

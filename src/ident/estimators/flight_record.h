@@ -53,8 +53,8 @@ struct RecordOptions {
 FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
                                 std::span<const FlightLog> logs, const RecordOptions& options = {});
 
-/// Throws DataError where a path was logged, but nothing of how the vehicle turned along it: no fit can
-/// follow that.
+/// Throws DataError where a path was logged, but nothing of how the vehicle turned along it: a fit
+/// does not find that.
 void require_turning(const Signals& logged);
 
 /// The record without its arcs.

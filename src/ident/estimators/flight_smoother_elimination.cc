@@ -245,7 +245,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     // that move them.
     Eigen::LLT<ArcElimination::Matrix> llt(arc.D());
     if (llt.info() != Eigen::Success) {
-      arc.D().diagonal() += 1e-10 * arc.D().diagonal().cwiseMax(1e-300);
+      arc.D().diagonal() += 1e-10 * arc.D().diagonal().cwiseMax(1e-200);
       llt.compute(arc.D());
     }
     const ArcElimination::Matrix& L = llt.matrixLLT();

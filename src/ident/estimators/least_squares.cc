@@ -176,7 +176,7 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   options.function_tolerance = problem.tolerance;
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
-  options.max_num_iterations = problem.max_steps + problem.most_rejected;
+  options.max_num_iterations = problem.max_steps * (1 + problem.most_rejected);
   options.logging_type = ceres::SILENT;
   EnoughSteps enough(problem);
   options.callbacks.push_back(&enough);

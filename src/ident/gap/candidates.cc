@@ -102,7 +102,8 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
         build.effect(name, {"payload.m", "payload.x", "payload.y", "payload.z"}, true);
       else
         build.effect(name, {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true),
-            problem.candidates.back().mass_for_shift = p[param::m] / payload_reach(vehicle);
+            problem.candidates.back().mass_for_shift =
+                payload_reach(vehicle) > 0 ? p[param::m] / payload_reach(vehicle) : 0.0;
     } else if (is(EffectId::wind)) {
       const bool drag = p[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] != 0 ||
                         p[static_cast<std::size_t>(find_parameter("parasitic_drag.C")->index)] != 0;

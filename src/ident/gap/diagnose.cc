@@ -132,7 +132,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   // Held out: both models fitted to the first 70 % of each log, judged on the rest under the final noise.
   const RecordSplit split = split_record(record, 0.7);
   Json horizons = Json::array();
-  std::map<double, GapClosed> gaps;  // by horizon, s
+  GapClosed gap;
   const auto training = [&](const ScoreBlock& block) {
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
     return block.to <= arc.t.front() + 0.7 * (arc.t.back() - arc.t.front());
@@ -149,7 +149,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   for (std::size_t h = 0; h < windows.horizons.size(); ++h) {
     const double horizon = windows.horizons[h];
     const GapClosed one = gap_closed(a[h], b[h]);
-    gaps[horizon] = one;
+    if (horizon == 0.5) gap = one;
     horizons.push_back({{"horizon", horizon},
                         {"before", number(one.before)},
                         {"after", number(one.after)},
@@ -157,11 +157,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                         {"closed", number(one.closed)},
                         {"closed_ci95", {number(one.ci95[0]), number(one.ci95[1])}}});
   }
-  const GapClosed gap = gaps.at(kToldHorizon);
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
   result.parameters = flight_parameters(best, search.best.fit, "gap");
-  Judged verdict = judge(search, gaps, rival, lines, jumps, result.parameters);
+  Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   const std::string wrong = disqualified(tested);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   result.extra["verdict"] = {{"status", verdict.status},

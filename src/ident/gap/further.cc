@@ -60,9 +60,9 @@ std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle&
                                       const FlightFitOptions& options) {
   const auto payload = std::ranges::find(before.problem.candidates, "payload", &Candidate::name);
   if (payload == before.problem.candidates.end()) return {};
-  std::optional<InFull> trial =
-      tried_in_full(record, vehicle, exclude, before,
-                    static_cast<int>(payload - before.problem.candidates.begin()), options);
+  const int place = static_cast<int>(payload - before.problem.candidates.begin());
+  if (std::ranges::find(before.have, place) != before.have.end()) return {};
+  std::optional<InFull> trial = tried_in_full(record, vehicle, exclude, before, place, options);
   if (!trial) return {};
   for (const int c : places_of(instead_of, trial->at.problem))
     if (further(trial->at, trial->at.have, c).passes()) return {};

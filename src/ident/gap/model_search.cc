@@ -1,4 +1,4 @@
-// Forward search with refits.
+// Forward search with refits and exchange.
 #include "ident/gap/model_search.h"
 
 #include <algorithm>
@@ -90,6 +90,8 @@ class Search {
     return standing_at(record_, vehicle_, options_.exclude, std::move(model));
   }
   void adopt(const Candidate& cause, InFull next, double gain) {
+    if (moves_mass(cause) && std::ranges::none_of(now_.model.adopted, moves_mass))
+      before_mass_ = now_, steps_before_mass_ = out_.steps.size();
     out_.steps.push_back({described(cause), gain});
     now_ = std::move(next.at);
   }
@@ -168,8 +170,6 @@ class Search {
       fell_.push_back(chosen);
       return true;
     }
-    if (moves_mass(chosen) && std::ranges::none_of(now_.model.adopted, moves_mass))
-      before_mass_ = now_, steps_before_mass_ = out_.steps.size();
     adopt(chosen, std::move(*next), best.honest());
     return true;
   }
@@ -199,7 +199,7 @@ class Search {
     const WeighedSet* best = nullptr;
     const std::vector<WeighedSet> sets = weighed_sets(now_);
     for (const WeighedSet& set : sets) {
-      if (!std::ranges::includes(set.members, kept)) continue;
+      if (!std::ranges::includes(set.members, kept) || !may_be_tried(set.members)) continue;
       if (!best) best = &set;
       all += set.probability;
       if (std::ranges::includes(set.members, now_.have)) own += set.probability;
@@ -212,11 +212,21 @@ class Search {
     if (!stands(model)) return false;
     const std::vector<Candidate> before = now_.model.adopted;
     Standing there = at(std::move(model));
+    if (there.have.size() != best->members.size()) return false;  // one acts only through what was dropped
     if (!(log_odds(there, there.have, places_of(before, there.problem)) > 0)) return false;
     now_ = std::move(there);
     before_mass_.reset();
+    tried_.clear();
     out_.steps = steps_here();
     return true;
+  }
+
+  // As many causes as were asked for, and none with which no model can be fitted.
+  bool may_be_tried(const std::vector<int>& set) const {
+    const auto fell = [&](int c) {
+      return std::ranges::any_of(fell_, [&](const Candidate& f) { return same(f, candidate(c)); });
+    };
+    return static_cast<int>(set.size()) <= options_.most_causes && std::ranges::none_of(set, fell);
   }
 
   // What each cause found gains beside the others.

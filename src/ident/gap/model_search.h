@@ -1,4 +1,4 @@
-// Search for the set of causes: adopt the best, refit, look again; then weigh every alternative set.
+// Search for the set of causes: adopt the best, refit, look again; exchange what the weights speak against.
 #pragma once
 
 #include <functional>

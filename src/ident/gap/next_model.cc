@@ -1,4 +1,4 @@
-// Starting values and noise for the fit of a model with one more cause.
+// Starting values and noise for the fit of a model with other causes.
 #include "ident/gap/next_model.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
                const Eigen::VectorXd& step, const std::vector<double>& at, double reach) {
   for (const int i : cause.directions) {
     const FreeConstant& d = problem.constants[static_cast<std::size_t>(i)];
-    const double moved = d.start + d.scale * step[i];
+    const double moved = at[static_cast<std::size_t>(d.index)] + d.scale * step[i];
     if (d.name == c.name) c.start = moved;
     if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
         d.name.substr(9) == c.name.substr(7)) {

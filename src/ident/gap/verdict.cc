@@ -17,8 +17,6 @@ namespace {
 // A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
 constexpr double kMostlyClosed = 0.5;
 constexpr double kPerhapsClosed = 0.75;  // unless so much lies within the 95 % interval
-// And this much has to lie within that of one horizon at least: long ones count gusts, short ones noise.
-constexpr double kNearlyClosed = 0.93;
 // A generic rival that gains this much on held-out flight has seen something, and that share of what the
 // causes explain is too much for a catalogue that should be enough.
 constexpr double kRivalGain = 45.0;
@@ -41,16 +39,6 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
     if (std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
   }
   return names;
-}
-
-// Whether the causes found leave more of the gap than chance and their form explain.
-bool gap_remains(const std::map<double, GapClosed>& gaps) {
-  const GapClosed& gap = gaps.at(kToldHorizon);
-  if (!std::isfinite(gap.closed)) return false;
-  if (gap.closed < kMostlyClosed && gap.ci95[1] < kPerhapsClosed) return true;
-  return std::ranges::all_of(gaps, [](const auto& entry) {
-    return !std::isfinite(entry.second.closed) || entry.second.ci95[1] < kNearlyClosed;
-  });
 }
 
 // Two causes that move masses are what one thing bolted on would do. With the payload in the catalogue it was
@@ -102,10 +90,9 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::v
 
 }  // namespace
 
-Judged judge(const SearchResult& search, const std::map<double, GapClosed>& gaps, const Rival& rival,
+Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted) {
-  const GapClosed& gap = gaps.at(kToldHorizon);
   Judged out;
   out.effects = names_of(search.best.adopted);
   if (!search.ran_away.empty()) {
@@ -144,7 +131,8 @@ Judged judge(const SearchResult& search, const std::map<double, GapClosed>& gaps
     }
     return out;
   }
-  const bool remains = gap_remains(gaps);
+  const bool remains =
+      std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed);
   const bool better = rival.total() > std::max(kRivalBeside, kRivalShare * search.explained);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (remains || better) {
@@ -153,7 +141,7 @@ Judged judge(const SearchResult& search, const std::map<double, GapClosed>& gaps
     out.sentence = fmt::format(
         "A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
         fmt::join(out.effects, " with "),
-        remains ? fmt::format("{:.0f} % of the gap remains with it", 100 * out.remaining)
+        remains ? "most of the gap remains with it"
                 : "a plain regression on the flight predicts what it leaves, most in " + rival.strongest());
     out.effects.clear();
     return out;

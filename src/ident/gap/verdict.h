@@ -1,7 +1,6 @@
 // What is said of a gap: named, ambiguous, unknown or none.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -19,12 +18,9 @@ struct Judged {
   double remaining = kNaN;
 };
 
-/// Horizon at which shares closed are told, s.
-inline constexpr double kToldHorizon = 0.5;
-
 /// From the search, the share closed on held-out flight by horizon (s), and what no cause of the catalogue
 /// can do.
-Judged judge(const SearchResult& search, const std::map<double, GapClosed>& gaps, const Rival& rival,
+Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted);
 
