@@ -12,7 +12,7 @@ namespace {
 
 // A motor stated nearly instant, with confidence. Its lag cannot be reached from there by small steps, which
 // end at a strange damping instead.
-TEST(RealGap, ANearlyInstantMotorIsFoundFirstAndNamedOfABrushedCrazyflie) {
+TEST(RealGap, ANearlyInstantMotorIsTheFirstThingFoundWrongOfABrushedCrazyflie) {
   IDENT_NEEDS_REAL_DATA(folder);
   Vehicle vehicle = arplab_crazyflie();
   const auto state = [&](const char* name, double value, double std) {
@@ -26,8 +26,12 @@ TEST(RealGap, ANearlyInstantMotorIsFoundFirstAndNamedOfABrushedCrazyflie) {
       read_log_map(std::string(IDENT_SOURCE_DIR) + "/data/maps/arplab_crazyflie_log15.yaml"))};
   const Diagnosis found = diagnose_gap(vehicle, logs);
   EXPECT_EQ(found.result.extra["search"][0]["adopted"], "parameter:omega_m");
-  const auto& effects = found.result.extra["verdict"]["effects"];
-  EXPECT_NE(std::ranges::find(effects, "parameter:omega_m"), effects.end()) << found.result.extra["verdict"];
+  // Whether it is named or only the nearest cause hangs on Omega_0, which this flight contradicts as well.
+  const auto& verdict = found.result.extra["verdict"];
+  const auto tells = [&](const char* list) {
+    return std::ranges::find(verdict[list], "parameter:omega_m") != verdict[list].end();
+  };
+  EXPECT_TRUE(tells("effects") || tells("confused_with")) << verdict;
   const double omega_m = found.adopted.parameters.at("omega_m").value,
                zeta_m = found.adopted.parameters.at("zeta_m").value;
   EXPECT_NEAR(2 * zeta_m / omega_m, 0.07, 0.015) << "s, the published time constant";
