@@ -22,7 +22,7 @@ constexpr double kPerhapsClosed = 0.75;  // unless so much lies within the 95 % 
 constexpr double kRivalGain = 45.0;
 constexpr double kRivalBeside = 60.0;  // beside causes, whose own form is never quite that of the real thing
 constexpr double kRivalShare = 0.12;
-constexpr double kSure = 0.8;
+constexpr double kSure = 0.9;
 // Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have.
 constexpr double kChanges = 2.8;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
