@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The flight kernel and dense products are compiled for several instruction sets. A function that such a file shares with the rest of the
-# program may be the one that the linker keeps, and then a plain machine stops with an illegal instruction: every
-# function defined there must bear the tag of its instruction set.
+# The flight kernel and dense products are compiled for several instruction sets. A function that such a file shares
+# with the rest of the program may be the one that the linker keeps, and then a plain machine stops with an illegal
+# instruction: every function defined there must bear the tag of its instruction set.
 #
 #   kernel_symbols.sh LIBRARY
 set -euo pipefail
