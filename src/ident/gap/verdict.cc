@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "ident/core/format_number.h"
 #include "ident/gap/further.h"
@@ -41,12 +42,12 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
   return names;
 }
 
-// Two causes that move masses are what one thing bolted on would do. With the payload in the catalogue it was
-// tried in their place.
+// Two causes that move masses are what one thing bolted on would do. With the payload in the catalogue it
+// stands beside them there.
 bool may_be_one_payload(const SearchResult& search) {
-  const bool tried =
+  const bool there =
       std::ranges::any_of(search.problem.candidates, [](const Candidate& c) { return c.name == "payload"; });
-  return !tried && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
+  return !there && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
 }
 
 // Whether the value of a cause is one of the vehicle as it stands, which no flight changes. What air, battery
@@ -86,6 +87,26 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::v
     worst = &p, most = std::abs(*p.pull);
   }
   return worst;
+}
+
+// What speaks against naming the causes found, as the end of a sentence; empty if nothing does.
+std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+                           const std::vector<Parameter>& fitted) {
+  if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed))
+    return "most of the gap remains with it";
+  if (rival.total() > std::max(kRivalBeside, kRivalShare * search.explained))
+    return "a plain regression on the flight predicts what it leaves, most in " + rival.strongest();
+  if (const Parameter* p = contradicted(fitted, search.best.adopted))
+    return fmt::format(
+        "with that the flight contradicts the value of {} known beforehand by {:.0f} standard deviations",
+        p->name, std::abs(*p->pull));
+  if (const Candidate* cause = changing(search))
+    return fmt::format("the value of {} would have to change from one part of the flight to the next",
+                       described(*cause));
+  if (may_be_one_payload(search))
+    return "all of that at once is what one thing bolted on would do, and a payload was not among the "
+           "causes tried";
+  return {};
 }
 
 }  // namespace
@@ -131,50 +152,13 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     }
     return out;
   }
-  const bool remains =
-      std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed);
-  const bool better = rival.total() > std::max(kRivalBeside, kRivalShare * search.explained);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
-  if (remains || better) {
+  if (const std::string why = against_naming(search, gap, rival, fitted); !why.empty()) {
     out.status = "unknown";
-    out.confused_with = out.effects;
-    out.sentence = fmt::format(
-        "A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
-        fmt::join(out.effects, " with "),
-        remains ? "most of the gap remains with it"
-                : "a plain regression on the flight predicts what it leaves, most in " + rival.strongest());
-    out.effects.clear();
-    return out;
-  }
-  if (const Parameter* p = contradicted(fitted, search.best.adopted)) {
-    out.status = "unknown";
-    out.confused_with = out.effects;
-    out.sentence = fmt::format(
-        "A gap is there that the catalogue does not explain. The nearest is {}, but with that the flight "
-        "contradicts the value of {} known beforehand by {:.0f} standard deviations.",
-        fmt::join(out.effects, " with "), p->name, std::abs(*p->pull));
-    out.effects.clear();
-    return out;
-  }
-  if (const Candidate* cause = changing(search)) {
-    out.status = "unknown";
-    out.confused_with = out.effects;
-    out.sentence = fmt::format(
-        "A gap is there that the catalogue does not explain. The nearest is {}, but the value of {} would "
-        "have "
-        "to change from one part of the flight to the next.",
-        fmt::join(out.effects, " with "), described(*cause));
-    out.effects.clear();
-    return out;
-  }
-  if (may_be_one_payload(search)) {
-    out.status = "unknown";
-    out.confused_with = out.effects;
-    out.sentence = fmt::format(
-        "The nearest is {}, but all of that at once is what one thing bolted on would do, and a payload was "
-        "not among the causes tried.",
-        fmt::join(out.effects, " with "));
-    out.effects.clear();
+    out.sentence =
+        fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
+                    fmt::join(out.effects, " with "), why);
+    out.confused_with = std::exchange(out.effects, {});
     return out;
   }
   // Other sets that explain it about as well; one with a further cause beside those found is none.

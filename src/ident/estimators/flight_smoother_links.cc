@@ -1,0 +1,145 @@
+// What is known where an arc begins, and the links between chunks: slopes and weights.
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/dense_rows.h"
+#include "ident/estimators/flight_smoother.h"
+
+namespace ident {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+double length(const FlightRecord& record, const ChunkPlace& place) {
+  const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+  return arc.t[place.end] - arc.t[place.begin];
+}
+
+// Far below what one chunk tells of an acceleration from outside: no noise means none.
+constexpr double kLeastOutside = 1e-10;
+
+// The motors' noise reaches zero. At the floor of the other states single precision would then speak through
+// their links, and the diagnosis name what is rounding.
+constexpr double kMotorFloor = 100.0;
+
+double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma + kLeastOutside; }
+
+}  // namespace
+
+const AirNoise& FlightSmoother::air_of(std::size_t k) const {
+  return noise_.in_log(record_->arcs[static_cast<std::size_t>(places_[k].arc)].log);
+}
+
+// Share of each state component that is left at the start of the next chunk.
+VectorXd FlightSmoother::carried(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  VectorXd share = VectorXd::Ones(layout.size);
+  const double h = length(*record_, places_[k]);
+  const AirNoise& air = air_of(k);
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (layout.w_dot >= 0) share[layout.w_dot + i] = air.w_dot[axis].carried(h);
+    if (layout.v_dot >= 0) share[layout.v_dot + i] = air.v_dot[axis].carried(h);
+  }
+  return share;
+}
+
+// Information on the state at the start of an arc, before any measurement.
+VectorXd FlightSmoother::start_information(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  const AirNoise& air = air_of(k);
+  VectorXd info = VectorXd::Zero(layout.size);
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / variance(air.w_dot[axis]);
+    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / variance(air.v_dot[axis]);
+  }
+  return info;
+}
+
+// The accelerations from outside within the local state of chunk k.
+VectorXd FlightSmoother::outside(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  VectorXd x = VectorXd::Zero(layout.size);
+  if (layout.w_dot >= 0) x.segment<3>(layout.w_dot) = trial_[k].outside.w_dot_B;
+  if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot_W;
+  return x;
+}
+
+Index FlightSmoother::shared() const {
+  return theta_->size() + (profiles_.empty() ? 0 : profiles_[0].cols());
+}
+
+// The profiles of chunk k within the local state.
+MatrixXd FlightSmoother::profile(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  MatrixXd P = MatrixXd::Zero(layout.size, profiles_[k].cols());
+  if (layout.w_dot >= 0) P.middleRows<3>(layout.w_dot) = profiles_[k].topRows<3>();
+  if (layout.v_dot >= 0) P.middleRows<3>(layout.v_dot) = profiles_[k].bottomRows<3>();
+  return P;
+}
+
+// Derivative of the defect of chunk k over its state, from column 0 on, and the shared unknowns, from column
+// padded(n) on; the next state held.
+void FlightSmoother::link_slope(std::size_t k, chunk::RowMatrix& E) const {
+  const Index n = record_->layout.size, m = theta_->size(), from = padded(record_->layout.size);
+  const VectorXd share = carried(k);
+  const chunk::ConstRowMap whole = chunk::E(results_[k], record_->layout.size);
+  E.leftCols(n) = share.asDiagonal() * whole.leftCols(n);
+  E.middleCols(from, m) = share.asDiagonal() * whole.rightCols(m);
+  // The floor of unmeasured rotor speeds goes with km (link_weight), so what counts is the defect over km.
+  const auto& constants = theta_->constants();
+  const auto km = std::ranges::find(constants, static_cast<int>(param::km), &FreeConstant::index);
+  if (km != constants.end() && record_->layout.motors >= 0 && !record_->signals.rotor_speeds) {
+    const Index j = km - constants.begin();
+    const double relative = theta_->slope(trial_u_, static_cast<int>(j)) / theta_->p(trial_u_)[param::km];
+    E.col(from + j).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
+        relative * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
+  }
+  // The process is what is left of the acceleration beyond the profile.
+  if (!profiles_.empty())
+    E.middleCols(from + m, shared() - m) = profile(k + 1) - share.asDiagonal() * profile(k);
+}
+
+// Inverse variance of the defect: what accelerations from outside win anew over a chunk, q h for rotor
+// speeds, and a floor far below what the measurements of one chunk can tell, so that all else continues.
+VectorXd FlightSmoother::link_weight(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  const double h = length(*record_, places_[k]),
+               rows = static_cast<double>(places_[k].end - places_[k].begin);
+  const auto floor = [&](int channel, double otherwise) {
+    const auto c = static_cast<std::size_t>(channel);
+    const double s = record_->sigma[c] != 1.0 ? noise_.sigma[c] : otherwise;  // 1: not measured
+    return 1e-5 * s * s / rows;
+  };
+  VectorXd W(layout.size);
+  const auto continues = [&](int at, int channel) {
+    for (int i = 0; i < 3 && at >= 0; ++i) W[at + i] = 1.0 / floor(channel + i, 0.01);
+  };
+  continues(layout.w, kGyro), continues(layout.attitude, kAttitude);
+  continues(layout.v, kVelocity), continues(layout.x, kPosition);
+  const auto wanders = [&](int at, const std::array<ColouredNoise, 3>& noise) {
+    for (int i = 0; i < 3 && at >= 0; ++i) {
+      const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];
+      const double share = axis.carried(h);
+      W[at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + kLeastOutside);
+    }
+  };
+  wanders(layout.w_dot, air_of(k).w_dot), wanders(layout.v_dot, air_of(k).v_dot);
+  const std::vector<double> p = theta_->p(trial_u_);
+  const double omega_m = p[param::omega_m];
+  // Rotor speeds that nobody measured are known up to a scale, that of km. The floor goes with it: else less
+  // speed would mean more freedom, and the cost would fall with km.
+  const double speeds = p[param::km] / theta_->p(VectorXd::Zero(theta_->size()))[param::km];
+  for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
+    const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0 * speeds);
+    W[layout.motors + n] = 1.0 / f;
+    W[layout.motors + layout.rotors + n] = 1.0 / (f * omega_m * omega_m);
+  }
+  return W;
+}
+
+}  // namespace ident
