@@ -118,6 +118,7 @@ TEST(Verdict, TwoCausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
 
 // Ten parts of a flight that disagree on the size of the first cause, and agree on that of the others.
 void disagrees(Case& c) {
+  c.search.steps[0].gain = 100;
   c.search.form.scores = Eigen::MatrixXd::Zero(3, 10);
   for (int part = 0; part < 10; ++part) {
     const double sign = part % 2 == 0 ? 1.0 : -1.0;
@@ -135,8 +136,63 @@ TEST(Verdict, AConstantOfTheVehicleThatChangesInFlightIsNotTheCause) {
   Case air({"rotor_drag", "cg_offset", "imu_bias"}, {"rotor_drag"});  // an equation that air follows nearly
   disagrees(air);
   EXPECT_EQ(air.judged().status, "identified");
+  Case strong({"cg_offset", "rotor_drag", "imu_bias"}, {"cg_offset"});
+  disagrees(strong);
+  strong.search.steps[0].gain = 1e5;  // it changes by a hundredth of itself
+  EXPECT_EQ(strong.judged().status, "identified");
   geometry.search.form.scores.bottomRows(2) *= 4;  // what the colour of the residuals does to all
   EXPECT_EQ(geometry.judged().status, "identified");
+}
+
+TEST(Verdict, APayloadWhoseMassIsNotSeenIsAShiftedCentreOfGravityAsWell) {
+  Case c({"payload", "cg_offset"}, {"payload"});
+  c.weighs({0}, 1.0);
+  Parameter mass;
+  mass.name = "payload.m", mass.value = 0.06, mass.std = 0.01;
+  c.fitted = {mass};
+  EXPECT_EQ(c.judged().status, "identified");
+  c.fitted[0].std = 0.02;
+  const Judged either = c.judged();
+  EXPECT_EQ(either.status, "ambiguous");
+  EXPECT_EQ(either.effects, Names{"payload"});
+  EXPECT_EQ(either.confused_with, Names{"cg_offset"});
+  c.search.best.adopted.push_back({"rotor_drag"});  // its place does what the other cause leaves
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted.pop_back();
+  c.search.problem.candidates.pop_back();
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.fitted[0].value = -0.06, c.fitted[0].std = 0.01;  // far from none on the wrong side
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, MoreThanThreeNamesAreNoAnswer) {
+  Case c({"rotor_drag", "parasitic_drag", "blade_flapping", "wind"}, {"rotor_drag"});
+  c.weighs({0}, 0.4);
+  c.weighs({1}, 0.2);
+  c.weighs({2}, 0.2);
+  const Judged three = c.judged();
+  EXPECT_EQ(three.status, "ambiguous");
+  EXPECT_EQ(three.confused_with, (Names{"parasitic_drag", "blade_flapping"}));
+  c.weighs({3}, 0.2);
+  const Judged four = c.judged();
+  EXPECT_EQ(four.status, "unknown");
+  EXPECT_TRUE(four.effects.empty());
+  EXPECT_EQ(four.confused_with.size(), 4U);
+}
+
+TEST(Verdict, TheSameIllOfTwoRotorsIsNotNamed) {
+  Case c({"rotor_mismatch", "rotor_mismatch", "rotor_tilt"}, {"rotor_mismatch"});
+  c.search.best.adopted[0].rotor = 0;
+  c.weighs({0}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  Candidate other{"rotor_mismatch"};
+  other.rotor = 2;
+  c.search.best.adopted.push_back(other);
+  const Judged twice = c.judged();
+  EXPECT_EQ(twice.status, "unknown");
+  EXPECT_EQ(twice.confused_with, Names{"rotor_mismatch"});
+  c.search.best.adopted[1].name = "rotor_tilt";
+  EXPECT_EQ(c.judged().status, "identified");
 }
 
 TEST(Verdict, TheDragThatWindBringsAlongIsNotNamed) {

@@ -81,7 +81,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     u = at.u, fit.steps += at.steps;
   };
   TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
-  if (options.estimate_noise) first.near = kWorthAStep, first.max_steps = kFirstSteps;
+  if (options.estimate_noise) first.max_steps = kFirstSteps;
   trust_region(first);
   tell(0.3);
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
@@ -102,33 +102,33 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     if (step.fall < kNear && theta.possible(u + step.du))
       u += step.du;
     else
-      trust_region({.tolerance = 0.1, .near = kWorthAStep, .max_steps = 1});
+      trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
   }
   // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
   if (!std::isfinite(smoother->linearize(u).cost)) restart();
-  // Where links let next to no noise through, the rounding of single precision would pass for information:
-  // the last steps are exact.
-  const auto minimise_to = [&](double enough) {
-    const SharedMinimum at = minimise_shared(*smoother, u, enough);
-    u = at.u, fit.steps += at.steps, fit.cost = at.cost;
-  };
-  minimise_to(std::max(options.tolerance, kWorthAStep));
-  smoother->set_exact(true);
-  minimise_to(std::min(options.tolerance, kWorthAStep));
-  const ReducedSystem system = smoother->reduced();
+  const SharedMinimum near = minimise_shared(*smoother, u, std::max(options.tolerance, kWorthAStep));
+  u = near.u, fit.steps += near.steps;
   fit.u = u;
-  fit.information = system.S;
   fit.noise = smoother->noise();
   fit.chunk_seconds = chunk;
-  const MatrixXd prior = prior_information(theta, u);
-  fit.naive_covariance = inverse_of(system.S + prior);
-  fit.blocks = smoother->score_blocks(options.block_seconds);
-  fit.covariance = corrected_for_colour(fit, prior);
-  smoother->set_exact(false);
   fit.smoother = smoother;
   fit.converged = true;
+  finish_fit(fit, theta, options);
   tell(1.0);
   return fit;
+}
+
+void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
+  FlightSmoother& smoother = *fit.smoother;
+  smoother.set_exact(true);
+  const SharedMinimum at = minimise_shared(smoother, fit.u, options.tolerance);
+  fit.u = at.u, fit.steps += at.steps, fit.cost = at.cost;
+  fit.information = smoother.reduced().S;
+  const MatrixXd prior = prior_information(theta, fit.u);
+  fit.naive_covariance = inverse_of(fit.information + prior);
+  fit.blocks = smoother.score_blocks(options.block_seconds);
+  fit.covariance = corrected_for_colour(fit, prior);
+  smoother.set_exact(false);
 }
 
 VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,

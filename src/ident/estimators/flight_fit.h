@@ -39,6 +39,11 @@ struct FlightFit {
 /// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
+/// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
+/// Slopes are exact: where links let next to no noise through, the rounding of single precision would pass for
+/// information. For a fit that was made with a larger tolerance.
+void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
+
 /// The shared unknowns as the blocks that `take` accepts would have them: one Newton step from the fit.
 Eigen::VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
                               const std::function<bool(const ScoreBlock&)>& take);

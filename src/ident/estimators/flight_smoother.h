@@ -84,8 +84,8 @@ class FlightSmoother {
 
   /// Residual moments of the last linearisation, which was asked for leverages.
   Moments moments() const;
-  /// Process noise that makes the last linearisation most likely (expectation maximisation, `rounds` steps);
-  /// gives the largest relative change of a standard deviation.
+  /// Process noise that makes the last linearisation most likely (expectation maximisation, `rounds` steps),
+  /// and the states eliminated under it; gives the largest relative change of a standard deviation.
   double retune(int rounds);
   /// Calls `work` for 0 to count - 1 on all threads.
   void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const;
@@ -125,7 +125,7 @@ class FlightSmoother {
                  const std::vector<std::vector<Seed>>& seeds) const;
   void predict(const Eigen::VectorXd& u);
   void evaluate(const Eigen::VectorXd& u, bool jacobian, bool leverage);
-  void eliminate();
+  void eliminate(const Eigen::VectorXd* held = nullptr);
   Eigen::VectorXd defect(std::size_t k) const;
   Eigen::VectorXd link_weight(std::size_t k) const;
   Eigen::VectorXd carried(std::size_t k) const;
@@ -135,10 +135,11 @@ class FlightSmoother {
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
   void link_slope(std::size_t k, chunk::RowMatrix& E) const;
-  void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum);
+  void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum, const Eigen::VectorXd* held);
   void add_start(std::size_t k, ArcElimination& arc) const;
-  void add_link(std::size_t k, ArcElimination& arc) const;
-  std::vector<Eigen::VectorXd> optimum() const;
+  void add_link(std::size_t k, ArcElimination& arc, const Eigen::VectorXd* held) const;
+  Eigen::VectorXd shared_optimum() const;
+  std::vector<Eigen::VectorXd> state_steps(const Eigen::VectorXd& du) const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void posterior_covariances(Elimination& el) const;
 

@@ -19,14 +19,15 @@ using Eigen::VectorXd;
 struct FlightSmoother::ArcElimination {
   using Matrix = chunk::RowMatrix;
 
-  ArcElimination(int states, int unknowns)
+  /// `slopes`: shared unknowns that links have slopes over, `unknowns` or more.
+  ArcElimination(int states, int unknowns, int slopes)
       : n(states),
         m(unknowns),
         from(padded(n)),
         shared(padded(m + 1)),
         own(Matrix::Zero(n, from + shared)),
         next(own),
-        E(own),
+        E(Matrix::Zero(n, from + padded(slopes + 1))),
         WE(own),
         U(Matrix::Zero(n, from)),
         solved(Matrix::Zero(n, from + shared + from)),
@@ -66,11 +67,14 @@ void FlightSmoother::add_start(std::size_t k, ArcElimination& arc) const {
 }
 
 // Adds the link of chunk k to its own block, and what it means for the next one to that.
-void FlightSmoother::add_link(std::size_t k, ArcElimination& arc) const {
+void FlightSmoother::add_link(std::size_t k, ArcElimination& arc, const VectorXd* held) const {
   const int n = arc.n, m = arc.m;
   link_slope(k, arc.E);
-  const VectorXd W = link_weight(k), d = defect(k);
-  arc.WE = W.asDiagonal() * arc.E;
+  const VectorXd W = link_weight(k);
+  VectorXd d = defect(k);
+  if (held) d.noalias() += arc.E.middleCols(arc.from, held->size()) * *held;
+  arc.WE.leftCols(n) = W.asDiagonal() * arc.E.leftCols(n);
+  arc.WE.middleCols(arc.from, m) = W.asDiagonal() * arc.E.middleCols(arc.from, m);
   arc.WE.col(arc.from + m) = W.cwiseProduct(d);
   const auto E = [&](int column) { return ArcElimination::rows(std::as_const(arc.E), column); };
   const auto WE = [&](int column) { return ArcElimination::rows(std::as_const(arc.WE), column); };
@@ -83,10 +87,12 @@ void FlightSmoother::add_link(std::size_t k, ArcElimination& arc) const {
   arc.next.leftCols(n) = W.asDiagonal();
 }
 
-void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum) {
-  const int n = record_->layout.size, own = theta_->size(), m = static_cast<int>(shared());
+void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum,
+                                   const VectorXd* held) {
+  const int n = record_->layout.size, own = theta_->size(), all = static_cast<int>(shared());
+  const int m = held ? 0 : all;
   Elimination& el = trial_elimination_;
-  ArcElimination arc(n, m);
+  ArcElimination arc(n, m, all);
   const int from = arc.from, right = from + arc.shared;
   const DenseRows& dense = dense_rows();
   const auto solved = [&](int column) { return ArcElimination::rows(std::as_const(arc.solved), column); };
@@ -100,14 +106,18 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
       add_start(k, arc);
     }
     arc.D() += A.topLeftCorner(n, n);
-    arc.B().leftCols(own) += A.topRightCorner(n, own);
     arc.f() += chunk::g(r).head(n);
-    arc.S().topLeftCorner(own, own) += A.bottomRightCorner(own, own);
-    arc.g().head(own) += chunk::g(r).tail(own);
+    if (held) {
+      arc.f().noalias() += A.topRightCorner(n, own) * *held;
+    } else {
+      arc.B().leftCols(own) += A.topRightCorner(n, own);
+      arc.S().topLeftCorner(own, own) += A.bottomRightCorner(own, own);
+      arc.g().head(own) += chunk::g(r).tail(own);
+    }
     arc.cost += r.cost;
     const bool linked = places_[k].linked;
     if (linked)
-      add_link(k, arc);
+      add_link(k, arc, held);
     else
       arc.U.setZero();
     // Damping only for states that nothing at all determines: it would pass for information on the constants
@@ -134,12 +144,13 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
   sum = {arc.cost, arc.g(), arc.S()};
 }
 
-void FlightSmoother::eliminate() {
+void FlightSmoother::eliminate(const VectorXd* held) {
   Elimination& el = trial_elimination_;
   const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;
   el.G.resize(K), el.B.resize(K), el.f.resize(K), el.D_inverse.resize(K);
   std::vector<ReducedSystem> parts(arcs);
-  in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a]); });
+  in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a], held); });
+  if (held) return;
   reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared())};
   for (const ReducedSystem& part : parts)
     reduced_.cost += part.cost, reduced_.g += part.g, reduced_.S += part.S;
@@ -161,8 +172,9 @@ void FlightSmoother::posterior_covariances(Elimination& el) const {
   });
 }
 
-// Steps of all states to the optimum of the last linearisation, shared unknowns and their priors included.
-std::vector<VectorXd> FlightSmoother::optimum() const {
+// Steps of the shared unknowns to the optimum of the last linearisation, priors included.
+VectorXd FlightSmoother::shared_optimum() const {
+  if (theta_->size() == 0) return VectorXd(0);
   const PriorTerms prior = theta_->prior(trial_u_);
   MatrixXd H = reduced_.S;
   // Directions that the data do not tell stay where they are: no further than some units without a prior.
@@ -171,17 +183,18 @@ std::vector<VectorXd> FlightSmoother::optimum() const {
   MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
   scaled.diagonal().array() += 1e-7;
   const VectorXd g = reduced_.g + prior.slope.cwiseProduct(prior.residual);
-  const VectorXd du =
-      theta_->size() > 0
-          ? VectorXd(-(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(VectorXd(s.asDiagonal() * g))))
-          : VectorXd(0);
+  return -(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(VectorXd(s.asDiagonal() * g)));
+}
+
+// Steps of the states for that of the shared unknowns: by the last elimination, which may have held it.
+std::vector<VectorXd> FlightSmoother::state_steps(const VectorXd& du) const {
   const Elimination& el = trial_elimination_;
   std::vector<VectorXd> dx(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
-    dx[k] = -(el.f[k] + el.B[k] * du);
-    if (places_[k].linked) dx[k] -= el.G[k] * dx[k + 1];
+    dx[k] = -el.f[k];
+    if (el.B[k].cols() > 0) dx[k].noalias() -= el.B[k] * du;
+    if (places_[k].linked) dx[k].noalias() -= el.G[k] * dx[k + 1];
   }
-  dx.push_back(du);
   return dx;
 }
 

@@ -16,6 +16,9 @@ namespace {
 
 // Gusts are not slower than this, s: what stays longer is a cause to be found, not noise.
 constexpr double kSlowest = 4.0;
+// The shared unknowns, which noise moves little and which make elimination twice as dear, are held for so
+// many rounds.
+constexpr int kHeld = 4;
 constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
 // A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
 constexpr double kNothing = 1e-11;
@@ -68,12 +71,14 @@ double FlightSmoother::retune(int rounds) {
   const StateLayout& layout = record_->layout;
   const int n = layout.size;
   double change = 0;
+  VectorXd du;
   for (int round = 0; round < rounds; ++round) {
-    if (round > 0) eliminate();
+    const bool again = round < 3 || round % kHeld == 0;
+    if (round > 0) eliminate(again ? nullptr : &du);
+    if (again) du = shared_optimum();
     Elimination& el = trial_elimination_;
     posterior_covariances(el);
-    const std::vector<VectorXd> dx = optimum();
-    const VectorXd& du = dx.back();
+    const std::vector<VectorXd> dx = state_steps(du);
     struct LogMoments {
       std::array<ProcessMoments, 3> turn, push;
     };
@@ -114,6 +119,7 @@ double FlightSmoother::retune(int rounds) {
     }
     if (change < 0.01) break;
   }
+  eliminate();
   return change;
 }
 

@@ -1,9 +1,10 @@
 // Features of the flight as profiles of acceleration from outside, and their gain on blocks left out.
 #include "ident/gap/generic_rival.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "ident/gap/held_out_gain.h"
 
 namespace ident {
 namespace {
@@ -12,10 +13,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kChunk = 0.2;  // s: features are slow
-constexpr int kFolds = 6;
-// Coefficients that are expected, in standard deviations of the noise a unit of a feature: the best is taken.
-constexpr std::array kSizes = {1.0, 0.3, 0.1};
+constexpr double kChunk = 0.2;   // s: features are slow
+constexpr double kPiece = 0.04;  // s: motors are fast
+constexpr double kPart = 4.0;    // s
+constexpr Index kMotorFeatures = 5;
+constexpr int kLeast = 1000;    // samples of a sensor that can be judged
 constexpr double kGross = 6.0;  // residuals of a sensor count up to this
 
 double at(const std::vector<double>& column, std::size_t i) { return column.empty() ? 1.0 : column[i]; }
@@ -55,130 +57,100 @@ MatrixXd features(const FlightRecord& record, const FlightSmoother& smoother, do
   }
   MatrixXd X(static_cast<Index>(rows.size()), rows.empty() ? 0 : rows[0].size());
   for (std::size_t k = 0; k < rows.size(); ++k) X.row(static_cast<Index>(k)) = rows[k];
-  for (Index c = 0; c < X.cols(); ++c) {
-    X.col(c).array() -= X.col(c).mean();
-    const double s = std::sqrt(X.col(c).squaredNorm() / static_cast<double>(X.rows()));
-    X.col(c) *= s > 1e-9 ? 1.0 / s : 0.0;
-  }
+  standardise(X);
   return X;
 }
 
-// What is gained on parts of the flight that were left out, over the spread of what is missed there in units
-// of white noise: coloured residuals promise more than they hold.
-class HeldOutGain {
- public:
-  /// A part: fall of the cost there, what the prediction misses along itself, and the variance that white
-  /// noise gives that.
-  void add(double fall, double missed, double variance) {
-    gain_ += fall;
-    if (variance > 0) spread_ += missed * missed / variance, parts_ += 1;
-  }
-  double honest() const { return gain_ / (parts_ > 0 ? std::max(spread_ / parts_, 1.0) : 1.0); }
-
- private:
-  double gain_ = 0, spread_ = 0, parts_ = 0;
-};
-
-// Fall of the cost on the blocks of each fold, of unknowns fitted to the others, coefficients of about
-// `size`; beyond that of theta alone.
-double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& prior, double expected) {
-  const Index m = blocks[0].score.size(), own = prior.slope.size();
-  VectorXd info = VectorXd::Constant(m, 1 / (expected * expected)), pull = VectorXd::Zero(m);
-  info.head(own) = prior.slope.cwiseAbs2().cwiseMax(1e-2);
-  pull.head(own) = prior.slope.cwiseProduct(prior.residual);
-  const auto solved = [&](const MatrixXd& F, const VectorXd& g, Index size) {
-    MatrixXd H = F.topLeftCorner(size, size);
-    H.diagonal() += info.head(size);
-    return VectorXd(-Eigen::LDLT<MatrixXd>(H).solve(g.head(size) + pull.head(size)));
-  };
-  const auto fall = [](const ScoreBlock& block, const VectorXd& x) {
-    const Index n = x.size();
-    return -2 * block.score.head(n).dot(x) - x.dot(block.information.topLeftCorner(n, n) * x);
-  };
-  HeldOutGain gain;
-  for (int fold = 0; fold < kFolds; ++fold) {
-    const auto left_out = [&](std::size_t b) { return static_cast<int>(b / 2) % kFolds == fold; };
-    MatrixXd F = MatrixXd::Zero(m, m);
-    VectorXd g = VectorXd::Zero(m);
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (!left_out(b)) F += blocks[b].information, g += blocks[b].score;
-    const VectorXd all = solved(F, g, m), plain = solved(F, g, own);
-    VectorXd further = all;  // what the features say beyond theta
-    further.head(own) -= plain;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      if (!left_out(b)) continue;
-      const VectorXd known = blocks[b].information * further;
-      const double missed = further.dot(blocks[b].score + blocks[b].information * all);
-      gain.add(fall(blocks[b], all) - fall(blocks[b], plain), missed, further.dot(known));
-    }
-  }
-  return gain.honest();
+int part_of(const FlightArc& arc, int number, std::size_t row) {
+  return static_cast<int>(std::abs(arc.t[row]) / kPart) + 1000 * number;
 }
 
-// The same for what a sensor shows beyond the model: weighted residuals of a channel, and how many, by chunk.
-struct SensorResiduals {
-  VectorXd sum, count;
-};
-SensorResiduals residuals_of(const std::vector<std::vector<double>>& residuals, std::size_t channel) {
-  const auto chunks = static_cast<Index>(residuals.size());
-  SensorResiduals out{VectorXd::Zero(chunks), VectorXd::Zero(chunks)};
-  for (Index k = 0; k < chunks; ++k) {
-    const std::vector<double>& of = residuals[static_cast<std::size_t>(k)];
-    for (std::size_t i = channel; i < of.size(); i += kChannels)
-      if (std::isfinite(of[i])) out.sum[k] += std::clamp(of[i], -kGross, kGross), out.count[k] += 1;
+// X and the mean size of each rotor's acceleration over the chunk: what differs between speeding up and
+// slowing down shows in nothing else.
+MatrixXd with_effort(const MatrixXd& X, const FlightRecord& record, const FlightSmoother& smoother) {
+  MatrixXd effort = MatrixXd::Zero(X.rows(), record.layout.rotors);
+  for (Index k = 0; k < X.rows(); ++k) {
+    const ChunkPlace& place = smoother.chunks()[static_cast<std::size_t>(k)];
+    const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(place.end - place.begin, 1));
+    for (std::size_t i = place.begin; i < place.end; ++i)
+      for (Index n = 0; n < effort.cols(); ++n)
+        effort(k, n) += share * std::abs(arc.start[i].motors[static_cast<std::size_t>(n)].Omega_dot);
   }
+  standardise(effort);
+  MatrixXd all(X.rows(), X.cols() + effort.cols());
+  all << X, effort;
+  return all;
+}
+
+// Weighted residuals of a channel in rows [begin, end) of a chunk, and how many.
+struct Sum {
+  double sum = 0, count = 0;
+};
+Sum sum_of(const std::vector<double>& residuals, std::size_t channel, std::size_t begin, std::size_t end) {
+  Sum out;
+  for (std::size_t i = begin; i < end && (i + 1) * kChannels <= residuals.size(); ++i)
+    if (const double r = residuals[i * kChannels + channel]; std::isfinite(r))
+      out.sum += std::clamp(r, -kGross, kGross), out.count += 1;
   return out;
 }
 
-// Fall of the cost on the chunks of each fold, of a regression on X fitted to the others; `parts` numbers
-// stretches of some seconds.
-double held_out_gain(const SensorResiduals& r, const MatrixXd& X, const std::vector<int>& parts,
-                     double expected) {
-  HeldOutGain gain;
-  for (int fold = 0; fold < kFolds; ++fold) {
-    VectorXd fitted_count = r.count, left_count = r.count;
-    VectorXd fitted_sum = r.sum;
-    for (Index k = 0; k < X.rows(); ++k) {
-      const bool left_out = parts[static_cast<std::size_t>(k)] % kFolds == fold;
-      (left_out ? fitted_count : left_count)[k] = 0;
-      if (left_out) fitted_sum[k] = 0;
-    }
-    MatrixXd H = X.transpose() * fitted_count.asDiagonal() * X;
-    H.diagonal().array() += 1 / (expected * expected);
-    const VectorXd predicted = X * Eigen::LDLT<MatrixXd>(H).solve(X.transpose() * fitted_sum);
-    double fall = 0, missed = 0, variance = 0;
-    for (Index k = 0; k < X.rows(); ++k) {
-      const double count = left_count[k], x = predicted[k];
-      fall += count > 0 ? x * (2 * r.sum[k] - count * x) : 0.0;
-      missed += count > 0 ? x * (r.sum[k] - count * x) : 0.0;
-      variance += count * x * x;
-      const auto part = [&](Index i) { return parts[static_cast<std::size_t>(i)]; };
-      if (k + 1 < X.rows() && part(k + 1) == part(k)) continue;
-      gain.add(fall, missed, variance);
-      fall = missed = variance = 0;
-    }
-  }
-  return gain.honest();
-}
-
 // What the sensors show beyond the model, channel by channel; a constant is one of the features.
-void add_sensors(Rival& rival, const FlightRecord& record, FlightSmoother& smoother, const MatrixXd& X) {
+void add_sensors(Rival& rival, const FlightRecord& record, const FlightSmoother& smoother,
+                 const std::vector<std::vector<double>>& residuals, const MatrixXd& X) {
   MatrixXd with_constant(X.rows(), X.cols() + 1);
   with_constant << X, VectorXd::Ones(X.rows());
   std::vector<int> parts;
-  for (const ChunkPlace& place : smoother.chunks()) {
-    const double t = record.arcs[static_cast<std::size_t>(place.arc)].t[place.begin];
-    parts.push_back(static_cast<int>(std::abs(t) / 4.0) + 1000 * place.arc);
-  }
-  const auto residuals = smoother.residuals();
+  for (const ChunkPlace& place : smoother.chunks())
+    parts.push_back(part_of(record.arcs[static_cast<std::size_t>(place.arc)], place.arc, place.begin));
   for (int channel = 0; channel < kRotorChannel + record.layout.rotors; ++channel) {
-    const SensorResiduals r = residuals_of(residuals, static_cast<std::size_t>(channel));
-    if (r.count.sum() < 1000) continue;
-    double best = -1e300;
-    for (const double size : kSizes)
-      best = std::max(best, held_out_gain(r, with_constant, parts, 0.3 * size));
-    rival.sensors.emplace_back(channel_name(channel), best);
+    SensorResiduals of{VectorXd::Zero(X.rows()), VectorXd::Zero(X.rows())};
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      const Sum whole = sum_of(residuals[k], static_cast<std::size_t>(channel), 0, residuals[k].size());
+      of.sum[static_cast<Index>(k)] = whole.sum, of.count[static_cast<Index>(k)] = whole.count;
+    }
+    if (of.count.sum() < kLeast) continue;
+    rival.sensors.emplace_back(channel_name(channel), held_out_gain(of, with_constant, parts));
   }
+}
+
+// The rotors' speeds once more, in pieces as short as motors are fast, by what each does itself: one
+// regression for all of them.
+void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& smoother,
+                const std::vector<std::vector<double>>& residuals, double hover) {
+  if (!record.signals.commands || !record.signals.rotor_speeds) return;
+  std::vector<double> features, sum, count;
+  std::vector<int> parts;
+  const auto rotors = static_cast<std::size_t>(record.layout.rotors);
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    const ChunkPlace& place = smoother.chunks()[k];
+    const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+    for (std::size_t begin = place.begin, end = begin; begin < place.end; begin = end) {
+      while (end < place.end && arc.t[end] - arc.t[begin] < kPiece) ++end;
+      const double share = 1.0 / (hover * static_cast<double>(end - begin));
+      for (std::size_t n = 0; n < rotors; ++n) {
+        double speed = 0, change = 0, effort = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const MotorState<double>& motor = arc.start[i].motors[n];
+          speed += share * motor.Omega, change += share * motor.Omega_dot;
+          effort += share * std::abs(motor.Omega_dot);
+        }
+        const Sum here = sum_of(residuals[k], kRotorChannel + n, begin - place.begin, end - place.begin);
+        features.insert(features.end(), {speed, speed * speed, change, effort, change * effort});
+        sum.push_back(here.sum), count.push_back(here.count);
+        parts.push_back(part_of(arc, place.arc, begin));
+      }
+    }
+  }
+  const auto pieces = static_cast<Index>(parts.size());
+  const SensorResiduals of{Eigen::Map<VectorXd>(sum.data(), pieces),
+                           Eigen::Map<VectorXd>(count.data(), pieces)};
+  if (of.count.sum() < kLeast) return;
+  MatrixXd X = Eigen::Map<MatrixXd>(features.data(), kMotorFeatures, pieces).transpose();
+  standardise(X);
+  X.conservativeResize(Eigen::NoChange, kMotorFeatures + 1);
+  X.rightCols<1>().setOnes();
+  rival.sensors.emplace_back("motors", held_out_gain(of, X, parts));
 }
 
 }  // namespace
@@ -212,7 +184,9 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   const double hover =
       std::sqrt(p[param::m] * record.vehicle->g / (static_cast<double>(record.layout.rotors) * p[param::kT]));
   const MatrixXd X = features(record, smoother, hover);
-  add_sensors(rival, record, smoother, X);
+  const auto residuals = smoother.residuals();
+  add_sensors(rival, record, smoother, residuals, X);
+  add_motors(rival, record, smoother, residuals, hover);
   const PriorTerms prior = theta.prior(fit.u);
   double push = 0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
@@ -221,6 +195,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
       push += air.v_dot[k].sigma / (3 * static_cast<double>(floor.air.size()));
       turn[static_cast<Index>(k)] += air.w_dot[k].sigma / static_cast<double>(floor.air.size());
     }
+  const MatrixXd all = with_effort(X, record, smoother);
   for (int channel = 0; channel < 6; ++channel) {
     const bool force = channel < 3;
     if (force ? record.layout.v_dot < 0 : record.layout.w_dot < 0) continue;
@@ -231,7 +206,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
         direction.tail<3>() = push * rotation(smoother.states()[k].body.q_WB).col(channel);
       else
         direction[channel - 3] = turn[channel - 3];
-      profiles.emplace_back(direction * X.row(static_cast<Index>(k)));
+      profiles.emplace_back(direction * all.row(static_cast<Index>(k)));
     }
     smoother.set_profiles(std::move(profiles));
     smoother.relinearize();
@@ -239,7 +214,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
     const std::vector<ScoreBlock> blocks = smoother.score_blocks(2.0);
     double& gain = rival.gain[static_cast<std::size_t>(channel)];
     gain = -1e300;
-    for (const double size : kSizes) gain = std::max(gain, held_out_gain(blocks, prior, size));
+    for (const double size : kRegressionSizes) gain = std::max(gain, held_out_gain(blocks, prior, size));
     if (gain == -1e300) gain = 0;  // nothing that can be judged
   }
   return rival;

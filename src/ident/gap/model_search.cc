@@ -2,6 +2,7 @@
 #include "ident/gap/model_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -45,6 +46,15 @@ double SearchResult::scatter_of(const Candidate& adopted) const {
   return 1.0;
 }
 
+// A block of B tells the value with a variance of B / (information of all), and the gain is value^2 times
+// that information.
+double SearchResult::change_of(const Candidate& adopted) const {
+  const auto step = std::ranges::find(steps, described(adopted), &SearchStep::name);
+  if (step == steps.end() || !(step->gain > 0)) return 0.0;
+  const double scatter = scatter_of(adopted), gain = step->gain * scatter;
+  return std::sqrt((scatter - 1) * static_cast<double>(form.scores.cols()) / gain);
+}
+
 double SearchResult::usual_scatter() const {
   std::vector<double> all;
   for (const Candidate& c : problem.candidates) all.push_back(own_stretch(form, c));
@@ -75,6 +85,8 @@ class Search {
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
     out_.sets = weighed_sets(now_);
     for (const SearchStep& step : steps_here()) out_.explained += step.gain;
+    fit_.tolerance = 0.02;
+    finish_fit(now_.model.fit, *now_.model.theta, fit_);
     out_.best = std::move(now_.model);
     out_.problem = std::move(now_.problem), out_.form = std::move(now_.form);
     return std::move(out_);

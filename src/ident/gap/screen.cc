@@ -99,7 +99,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   u.tail(biases) = fit.u.tail(biases);
   smoother.linearize(u);  // the states are at their best already
   smoother.retune(10);
-  const ReducedSystem system = smoother.relinearize();
+  const ReducedSystem& system = smoother.reduced();
   smoother.accept();
   form.noise = smoother.noise();
   form.cost0 = system.cost;

@@ -1,0 +1,130 @@
+// The rules, one by one.
+#include "ident/gap/against_naming.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ident/gap/further.h"
+
+namespace ident {
+namespace {
+
+// A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
+constexpr double kMostlyClosed = 0.5;
+constexpr double kPerhapsClosed = 0.75;  // unless so much lies within the 95 % interval
+// What a generic rival may gain on held-out flight beside causes, whose own form is never quite that of the
+// real thing, and the share of what they explain.
+constexpr double kRivalBeside = 60.0;
+constexpr double kRivalShare = 0.12;
+// Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have; and
+// the share of the value, for the form of a strong cause is never quite that of the real thing.
+constexpr double kChanges = 2.8;
+constexpr double kChangesBy = 0.1;
+// Standard deviations of a payload's mass from none below which only its moment was seen.
+constexpr double kMassSeen = 5.0;
+// Standard deviations by which a constant may be pulled off its bench value beside the right cause.
+constexpr double kContradicts = 5.0;
+// And as many of the bench's own, which a flight that tells little need not reach.
+constexpr double kOff = 2.0;
+
+bool is_candidate(const SearchResult& search, const std::string& name) {
+  return std::ranges::any_of(search.problem.candidates, [&](const Candidate& c) { return c.name == name; });
+}
+
+// Two causes that move masses are what one thing bolted on would do. With the payload in the catalogue it
+// stands beside them there.
+bool may_be_one_payload(const SearchResult& search) {
+  return !is_candidate(search, "payload") && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
+}
+
+// Whether the value of a cause is one of the vehicle as it stands, which no flight changes. What air, battery
+// and motors do follows its equation only nearly.
+bool stays_put(const Candidate& cause) {
+  constexpr std::array nearly = {"battery_sag",       "motor_delay",      "thrust_curve",
+                                 "parameter:omega_m", "parameter:zeta_m", "parameter:km"};
+  if (std::ranges::find(nearly, cause.name) != nearly.end()) return false;
+  const EffectEntry* effect = find_effect(cause.name);
+  return !effect || (effect->info.touches & (kTouchFlow | kTouchHeight)) == 0;
+}
+
+// The cause found whose value changes from one part of the flight to the next though it should not: another
+// one acts there in its place.
+const Candidate* changing(const SearchResult& search) {
+  const double most = kChanges * std::max(search.usual_scatter(), 1.0);
+  for (const Candidate& c : search.best.adopted)
+    if (stays_put(c) && search.scatter_of(c) > most && search.change_of(c) > kChangesBy) return &c;
+  return nullptr;
+}
+
+bool is_found(const SearchResult& search, const std::string& name) {
+  return std::ranges::any_of(search.best.adopted, [&](const Candidate& c) { return c.name == name; });
+}
+
+// An effect that was needed on two rotors at once. One ill rotor is an accident; two that together do what
+// the residual wants are more likely two columns of a regression.
+std::string ill_twice(const SearchResult& search) {
+  const std::vector<Candidate>& found = search.best.adopted;
+  for (auto c = found.begin(); c != found.end(); ++c)
+    if (c->rotor >= 0 &&
+        std::any_of(c + 1, found.end(), [&](const Candidate& o) { return o.name == c->name; }))
+      return c->name;
+  return {};
+}
+
+// The constant that the flight, with the causes found, pulls furthest off its bench value, if too far. One
+// whose value is among those causes may be anywhere.
+const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::vector<Candidate>& adopted) {
+  const Parameter* worst = nullptr;
+  double most = kContradicts;
+  for (const Parameter& p : fitted) {
+    const bool heard = p.from_flight && *p.from_flight > 0.05;
+    const auto is_it = [&](const Candidate& c) {  // omega_m and zeta_m are one thing, the motors' lag
+      const bool lag = p.name == "omega_m" || p.name == "zeta_m";
+      return c.name == "parameter:" + p.name ||
+             (lag && (c.name == "parameter:omega_m" || c.name == "parameter:zeta_m"));
+    };
+    const bool off = p.prior_value && std::abs(p.value - *p.prior_value) > kOff * p.prior_std.value_or(1e300);
+    if (!p.pull || !heard || !off || !(std::abs(*p.pull) > most) || std::ranges::any_of(adopted, is_it))
+      continue;
+    worst = &p, most = std::abs(*p.pull);
+  }
+  return worst;
+}
+
+}  // namespace
+
+bool weightless_payload(const SearchResult& search, const std::vector<Parameter>& fitted) {
+  const auto mass = std::ranges::find(fitted, "payload.m", &Parameter::name);
+  return is_found(search, "payload") && mass != fitted.end() && !(mass->value > kMassSeen * mass->std);
+}
+
+std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+                           const std::vector<Parameter>& fitted) {
+  if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed))
+    return "most of the gap remains with it";
+  if (rival.total() > std::max(kRivalBeside, kRivalShare * search.explained))
+    return "a plain regression on the flight predicts what it leaves, most in " + rival.strongest();
+  if (const Parameter* p = contradicted(fitted, search.best.adopted))
+    return fmt::format(
+        "with that the flight contradicts the value of {} known beforehand by {:.0f} standard deviations",
+        p->name, std::abs(*p->pull));
+  if (const Candidate* cause = changing(search))
+    return fmt::format("the value of {} would have to change from one part of the flight to the next",
+                       described(*cause));
+  if (const std::string name = ill_twice(search); !name.empty())
+    return fmt::format("{} would have to be there on two rotors at once", name);
+  const bool alone = search.best.adopted.size() == 1 && is_candidate(search, "cg_offset");
+  if (weightless_payload(search, fitted) && !alone)
+    return "of the payload the flight shows the moment and not the mass: a shift of the centre of gravity "
+           "without "
+           "one would do as well";
+  if (may_be_one_payload(search))
+    return "all of that at once is what one thing bolted on would do, and a payload was not among the "
+           "causes tried";
+  return {};
+}
+
+}  // namespace ident
