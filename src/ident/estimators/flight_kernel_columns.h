@@ -43,7 +43,9 @@ struct KernelColumns {
     for (int i = 0; i < layout.size; ++i)
       if (kind_of(task, touches, i) == Kind::dual) add({i, 0, Kind::dual, 1.0});
     for (const Seed& seed : task.seeds)
-      if (seed.slot < kParameterCount) add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
+      if (seed.slot < kParameterCount &&
+          place[layout.size + seed.direction].at < 0)  // once, for several slots
+        add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
     // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
     // precision.
     dual_packs = task.exact ? 4 * ((columns + 31) / 32) : 2 * ((columns + 15) / 16);

@@ -99,12 +99,11 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
   std::vector<Parameter> out;
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    const double slope = std::abs(theta.slope(fit.u, i));
     Parameter p;
     p.name = c.name;
     p.value = theta.physical(fit.u, i);
-    p.std = slope * std::sqrt(fit.covariance(i, i));
-    p.naive_std = slope * std::sqrt(fit.naive_covariance(i, i));
+    p.std = theta.deviation(fit.u, i, fit.covariance);
+    p.naive_std = theta.deviation(fit.u, i, fit.naive_covariance);
     p.unit = parameter_unit(c.name);
     p.source = source;
     // In the logarithm for positive constants: the interval stays positive.

@@ -38,13 +38,38 @@ std::string Theta::name(int i) const {
 double Theta::physical(const Eigen::VectorXd& u, int i) const {
   if (i >= constants_count()) return gyro_bias_std_ * u[i];
   const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
-  return c.positive ? c.start * std::exp(u[i]) : c.start + c.scale * u[i];
+  const double own = c.positive ? c.start * std::exp(u[i]) : c.start + c.scale * u[i];
+  const int k = factor(i);
+  return k < 0 ? own : own * constants_[static_cast<std::size_t>(k)].start / physical(u, k);
 }
 
 double Theta::slope(const Eigen::VectorXd& u, int i) const {
   if (i >= constants_count()) return gyro_bias_std_;
   const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
-  return c.positive ? c.start * std::exp(u[i]) : c.scale;
+  const double own = c.positive ? c.start * std::exp(u[i]) : c.scale;
+  const int k = factor(i);
+  return k < 0 ? own : own * constants_[static_cast<std::size_t>(k)].start / physical(u, k);
+}
+
+// The unknown that constant i goes with as a product; -1 if none.
+int Theta::factor(int i) const {
+  const int slot = i < constants_count() ? constants_[static_cast<std::size_t>(i)].times : -1;
+  if (slot < 0) return -1;
+  const auto at = std::ranges::find(constants_, slot, &FreeConstant::index);
+  return at == constants_.end() ? -1 : static_cast<int>(at - constants_.begin());
+}
+
+// Derivative of the value of constant i with respect to that unknown.
+double Theta::slope_over_factor(const Eigen::VectorXd& u, int i) const {
+  const int k = factor(i);
+  return k < 0 ? 0.0 : -physical(u, i) / physical(u, k) * slope(u, k);
+}
+
+double Theta::deviation(const Eigen::VectorXd& u, int i, const Eigen::MatrixXd& covariance) const {
+  const double own = slope(u, i), other = slope_over_factor(u, i);
+  const int k = std::max(factor(i), 0);
+  return std::sqrt(own * own * covariance(i, i) + 2 * own * other * covariance(i, k) +
+                   other * other * covariance(k, k));
 }
 
 std::vector<double> Theta::p(const Eigen::VectorXd& u) const {
@@ -66,6 +91,7 @@ std::vector<Seed> Theta::seeds(const Eigen::VectorXd& u, int log) const {
   for (int i = 0; i < constants_count(); ++i) {
     const int slot = constants_[static_cast<std::size_t>(i)].index;
     seeds.push_back({slot, i, slope(u, i), effect_of(slot)});
+    if (const int k = factor(i); k >= 0) seeds.push_back({slot, k, slope_over_factor(u, i), effect_of(slot)});
   }
   for (int k = 0; k < 3 && gyro_; ++k)
     seeds.push_back({kParameterCount + k, constants_count() + 3 * log + k, gyro_bias_std_, 0});

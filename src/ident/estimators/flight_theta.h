@@ -20,6 +20,12 @@ struct FreeConstant {
   std::optional<double> prior_std;  ///< about `prior_value`
   double prior_value = 0.0;
   bool adopted = false;  ///< belongs to a cause that a diagnosis took up, not to the model as stated
+  /// Slot of another free constant: what moves on its own is the product with that (a payload's moment, not
+  /// its place), value = (start + scale u) start_other / other.
+  int times = -1;
+
+  /// Change of the value for a unit step from the start.
+  double unit() const { return positive ? start : scale; }
 };
 
 struct PriorTerms {
@@ -42,6 +48,8 @@ class Theta {
   /// Physical value of unknown i, and its derivative with respect to u_i.
   double physical(const Eigen::VectorXd& u, int i) const;
   double slope(const Eigen::VectorXd& u, int i) const;
+  /// Standard deviation of that value, from the covariance of u.
+  double deviation(const Eigen::VectorXd& u, int i, const Eigen::MatrixXd& covariance) const;
 
   /// The model's constants at u, and the gyro bias of a log.
   std::vector<double> p(const Eigen::VectorXd& u) const;
@@ -53,6 +61,9 @@ class Theta {
   bool possible(const Eigen::VectorXd& u) const;
 
  private:
+  int factor(int i) const;
+  double slope_over_factor(const Eigen::VectorXd& u, int i) const;
+
   std::vector<double> p_;
   std::vector<FreeConstant> constants_;
   int logs_;

@@ -135,8 +135,11 @@ std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle
   std::vector<FreeConstant> out;
   if (candidate.parameter >= 0) return out;
   if (candidate.name == "payload") {
-    for (const char* q : {"m", "x", "y", "z"})
+    // Along mass and place the fit would follow a bent valley, along mass and moment it does not.
+    for (const char* q : {"m", "x", "y", "z"}) {
       out.push_back(effect_constant(std::string("payload.") + q, vehicle, p));
+      if (out.size() > 1) out.back().times = out.front().index;
+    }
     return out;
   }
   const std::string at = candidate.rotor >= 0 ? "@" + std::to_string(candidate.rotor + 1) : "";

@@ -31,7 +31,7 @@ Json adopted_parameters(const FittedModel& model, const Candidate& cause) {
   for (int i = 0; i < theta.constants_count(); ++i) {
     std::string name = theta.constants()[static_cast<std::size_t>(i)].name;
     double value = theta.physical(model.fit.u, i);
-    double std = std::abs(theta.slope(model.fit.u, i)) * std::sqrt(model.fit.covariance(i, i));
+    double std = theta.deviation(model.fit.u, i, model.fit.covariance);
     if (cause.parameter >= 0 ? i != cause.parameter : name.substr(0, name.find('.')) != cause.name) continue;
     std::string unit = parameter_unit(name);
     if (const auto at = name.find('@'); at != std::string::npos) {
@@ -103,7 +103,7 @@ Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
   for (int i = 0; i < theta.constants_count(); ++i) {
     const std::string& name = theta.constants()[static_cast<std::size_t>(i)].name;
     out.parameters[name] = {theta.physical(model.fit.u, i),
-                            std::abs(theta.slope(model.fit.u, i)) * std::sqrt(model.fit.covariance(i, i))};
+                            theta.deviation(model.fit.u, i, model.fit.covariance)};
   }
   return out;
 }

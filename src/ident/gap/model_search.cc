@@ -22,7 +22,7 @@ constexpr double kMaterial = 0.04;
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
 // Causes found that are no more probable than this among all sets are exchanged, so often.
-constexpr double kHardly = 0.05;
+constexpr double kHardly = 0.3;
 constexpr int kExchanges = 2;
 
 }  // namespace

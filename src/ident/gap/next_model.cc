@@ -18,6 +18,7 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
     const FreeConstant& d = problem.constants[static_cast<std::size_t>(i)];
     const double moved = at[static_cast<std::size_t>(d.index)] + d.scale * step[i];
     if (d.name == c.name) c.start = moved;
+    if (c.name == "payload.m") c.start = std::max(c.start, 1e-3 * at[param::m]), c.positive = true;
     if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
         d.name.substr(9) == c.name.substr(7)) {
       const double mass = std::max(problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
@@ -26,40 +27,6 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
       c.start = std::clamp(moved * at[param::m] / mass, -reach, reach);
     }
   }
-}
-
-// Along mass and place a payload's fit follows a bent valley, along mass and the centre of gravity that it
-// moves it does not: those first, and its place from them. `constants` and `options` are moved there.
-void find_moment_first(std::vector<FreeConstant>& constants, const std::vector<Candidate>& adopted,
-                       const FlightRecord& record, const Standing& at_now, const SetGain& set,
-                       const std::vector<double>& at, FlightFitOptions& options, double reach) {
-  const auto is_place = [](const FreeConstant& c) {
-    return c.name == "payload.x" || c.name == "payload.y" || c.name == "payload.z";
-  };
-  std::vector<FreeConstant> moment = constants;
-  std::erase_if(moment, is_place);
-  for (const char* axis : {"x", "y", "z"}) {
-    const std::string name = std::string("cg_offset.") + axis;
-    if (std::ranges::find(moment, name, &FreeConstant::name) != moment.end()) return;
-    const auto d = std::ranges::find(at_now.problem.constants, name, &FreeConstant::name);
-    moment.push_back(*d);
-    moment.back().start += d->scale * set.step[d - at_now.problem.constants.begin()];
-    moment.back().adopted = true;
-  }
-  const FittedModel first = fitted(moment, adopted, record, at, options);
-  if (!stands(first)) return;
-  const std::vector<double> p = first.theta->p(first.fit.u);
-  const auto value = [&](const std::string& name) {
-    return p[static_cast<std::size_t>(find_parameter(name)->index)];
-  };
-  const double mass = std::max(value("payload.m"), 1e-3 * p[param::m]);
-  for (FreeConstant& c : constants)
-    c.start = c.name == "payload.m" ? mass
-              : is_place(c) ? std::clamp(value("cg_offset." + c.name.substr(8)) * (p[param::m] + mass) / mass,
-                                         -reach, reach)
-                            : p[static_cast<std::size_t>(c.index)];
-  options.noise = first.fit.noise;
-  options.chunk_seconds = std::min(options.chunk_seconds, first.fit.chunk_seconds);
 }
 
 }  // namespace
@@ -120,9 +87,6 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   again.estimate_noise = strong;
   again.chunk_seconds =
       std::min(at_now.model.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
-  const auto is_mass = [](const FreeConstant& c) { return c.name == "payload.m"; };
-  if (std::ranges::any_of(constants, is_mass) && std::ranges::none_of(at_now.model.constants, is_mass))
-    find_moment_first(constants, adopted, record, at_now, set, at, again, payload_reach(vehicle));
   return fitted(constants, adopted, record, at, again);
 }
 

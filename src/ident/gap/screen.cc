@@ -115,7 +115,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
     const FreeConstant& c = constants[static_cast<std::size_t>(i)];
     const std::size_t dot = c.name.find('.');
     if (dot == std::string::npos || states_effect(*record.vehicle, c.name.substr(0, dot))) continue;
-    form.null[i] = (find_parameter(c.name)->null_value - c.start) / c.scale;
+    form.null[i] = (find_parameter(c.name)->null_value - c.start) / c.unit();
   }
   // Variance of the scores over blocks, each projected on the base, over what white residuals would give.
   std::vector<MatrixXd> information;
@@ -221,7 +221,7 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
   for (const int c : members)
     for (const int i : problem.candidates[static_cast<std::size_t>(c)].directions) {
       const FreeConstant& of = problem.constants[static_cast<std::size_t>(i)];
-      const double size = std::abs(of.scale * (with.step[i] - form.null[i]));
+      const double size = std::abs(of.unit() * (with.step[i] - form.null[i]));
       if (const EffectParameter* p = find_effect_parameter(of.name); p && size > p->limit)
         out.physical = false;
     }
@@ -249,12 +249,9 @@ double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, i
   MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
   scaled.diagonal().array() += 1e-10;
   const double v = Eigen::LLT<MatrixXd>(scaled).solve(VectorXd::Unit(m, at))[at] * s[at] * s[at];
-  const double scale = problem.constants[static_cast<std::size_t>(target)].positive
-                           ? problem.constants[static_cast<std::size_t>(target)].start
-                           : problem.constants[static_cast<std::size_t>(target)].scale;
   return std::sqrt(std::max(v, 0.0) *
                    stretch_of(form, c.parameter >= 0 ? std::vector<int>{target} : c.directions)) *
-         std::abs(scale);
+         std::abs(problem.constants[static_cast<std::size_t>(target)].unit());
 }
 
 }  // namespace ident

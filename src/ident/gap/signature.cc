@@ -174,8 +174,7 @@ Signature signature_of(const Candidate& cause, const Switch& off, const MatrixXd
     const FreeConstant& c = best.theta->constants()[static_cast<std::size_t>(off.only)];
     out.parameter = c.name.substr(0, c.name.find('@')), out.parameter_unit = parameter_unit(c.name);
     out.found = best.theta->physical(best.fit.u, off.only) - off.off.front().second;
-    out.found_std = std::abs(best.theta->slope(best.fit.u, off.only)) *
-                    std::sqrt(best.fit.covariance(off.only, off.only));
+    out.found_std = best.theta->deviation(best.fit.u, off.only, best.fit.covariance);
   }
   const Index stride = (predicted.rows() + kMostPoints - 1) / kMostPoints;
   for (Index k = 0; k < predicted.rows(); k += stride) {
