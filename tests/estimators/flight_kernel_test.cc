@@ -120,6 +120,39 @@ TEST(FlightKernel, LeveragesAddUpToTheTrace) {
   }
 }
 
+// A payload's moment moves on its own, not its place: slopes and deviations are those of the product.
+TEST(FlightKernel, AProductOfTwoConstantsHasItsSlopes) {
+  Setting s;
+  FreeConstant mass{.name = "payload.m", .index = find_parameter("payload.m")->index, .positive = true};
+  FreeConstant place{.name = "payload.x", .index = find_parameter("payload.x")->index};
+  mass.start = 0.03, place.start = 0.05, place.scale = 0.02, place.times = mass.index;
+  s.theta = Theta(s.p, {mass, place}, 1, false);
+  Eigen::VectorXd u = Eigen::Vector2d(0.4, -0.7);
+  EXPECT_NEAR(s.theta.physical(u, 0) * s.theta.physical(u, 1), 0.03 * (0.05 - 0.7 * 0.02), 1e-15);
+  const auto cost_at = [&](const Eigen::VectorXd& at, ChunkResult& r) {
+    std::vector<double> constants;
+    ChunkTask task = s.task(at, constants);
+    task.exact = true, task.huber = 1e9;
+    evaluate_chunk(task, r);
+    return r.cost;
+  };
+  ChunkResult here, there;
+  cost_at(u, here);
+  const Eigen::MatrixXd C = Eigen::Matrix2d{{0.04, 0.01}, {0.01, 0.09}};
+  Eigen::Vector2d gradient;
+  for (int i = 0; i < 2; ++i) {
+    constexpr double h = 1e-4;
+    Eigen::VectorXd after = u, before = u;
+    after[i] += h, before[i] -= h;
+    const double slope = (cost_at(after, there) - cost_at(before, there)) / (2 * h);
+    const double claimed = 2 * here.g[static_cast<std::size_t>(s.record.layout.size + i)];
+    EXPECT_NEAR(claimed, slope, 1e-4 * std::abs(slope)) << i;
+    gradient[i] = (s.theta.physical(after, 1) - s.theta.physical(before, 1)) / (2 * h);
+  }
+  EXPECT_NEAR(s.theta.deviation(u, 1, C), std::sqrt(gradient.dot(C * gradient)), 1e-9);
+  EXPECT_NEAR(s.theta.deviation(u, 0, C), 0.2 * s.theta.physical(u, 0), 1e-12);
+}
+
 // Slopes in double precision are those in single precision, to its digits.
 TEST(FlightKernel, ExactSlopesAgreeWithQuickOnes) {
   Setting s;

@@ -112,5 +112,33 @@ TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles)
     }
 }
 
+// The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew
+// on the way there.
+TEST(FlightSmoother, NoiseIsTheSameWithTheSharedUnknownsHeldForSomeRounds) {
+  Vehicle vehicle = testing::published_vehicle();
+  SimulationOptions options;
+  options.duration = 20.0, options.rate = 100.0, options.turbulence = 0.5;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  for (const char* name : {"kT", "kQ", "Jxx", "Jyy", "Jzz"})
+    vehicle.parameters[name] = {1.1 * vehicle.value(name), 0.1 * vehicle.value(name)};
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta theta(p, free_constants(vehicle, p), 1, true);
+  const auto smoother_at_start = [&] {
+    FlightSmoother smoother(record, theta, initial_noise(record), 0.15);
+    smoother.settle(Eigen::VectorXd::Zero(theta.size()), 3);
+    smoother.linearize(Eigen::VectorXd::Zero(theta.size()));
+    return smoother;
+  };
+  FlightSmoother held = smoother_at_start(), free = smoother_at_start();
+  held.retune(24);
+  for (int round = 0; round < 24; ++round) free.retune(1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(held.noise().air[0].v_dot[k].sigma / free.noise().air[0].v_dot[k].sigma, 1.0, 0.02) << k;
+    EXPECT_NEAR(held.noise().air[0].w_dot[k].sigma / free.noise().air[0].w_dot[k].sigma, 1.0, 0.02) << k;
+  }
+  EXPECT_NEAR(held.reduced().cost / free.reduced().cost, 1.0, 0.01);
+}
+
 }  // namespace
 }  // namespace ident
