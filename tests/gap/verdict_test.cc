@@ -77,6 +77,15 @@ TEST(Verdict, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIsExplai
   EXPECT_EQ(left.status, "unknown");
   EXPECT_TRUE(left.effects.empty());
   EXPECT_EQ(left.confused_with, Names{"rotor_drag"});
+  Case exact({"cg_offset"}, {"cg_offset"});  // geometry leaves nothing
+  exact.weighs({0}, 1.0);
+  exact.rival.gain[0] = 55.0;
+  EXPECT_EQ(exact.judged().status, "identified");
+  exact.rival.gain[0] = 65.0;
+  EXPECT_EQ(exact.judged().status, "unknown");
+  exact.rival.gain[0] = 50.0;
+  exact.search.explained = 40.0;  // the regression sees more than the cause does
+  EXPECT_EQ(exact.judged().status, "unknown");
 }
 
 TEST(Verdict, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidSo) {
@@ -140,6 +149,11 @@ TEST(Verdict, AConstantOfTheVehicleThatChangesInFlightIsNotTheCause) {
   disagrees(strong);
   strong.search.steps[0].gain = 1e5;  // it changes by a hundredth of itself
   EXPECT_EQ(strong.judged().status, "identified");
+  Case motor({"motor_asymmetry", "rotor_drag", "imu_bias"}, {"motor_asymmetry"});
+  disagrees(motor);  // by less than half of itself: motors are what they are only nearly
+  EXPECT_EQ(motor.judged().status, "identified");
+  motor.search.steps[0].gain = 20;
+  EXPECT_EQ(motor.judged().status, "unknown");
   geometry.search.form.scores.bottomRows(2) *= 4;  // what the colour of the residuals does to all
   EXPECT_EQ(geometry.judged().status, "identified");
 }

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "ident/gap/further.h"
 
@@ -15,14 +15,16 @@ namespace {
 // A verdict needs this much of the explainable gap closed; below it most of the gap remains unexplained.
 constexpr double kMostlyClosed = 0.5;
 constexpr double kPerhapsClosed = 0.75;  // unless so much lies within the 95 % interval
-// What a generic rival may gain on held-out flight beside causes, whose own form is never quite that of the
-// real thing, and the share of what they explain.
-constexpr double kRivalBeside = 60.0;
+// What a generic rival may gain on held-out flight beside causes; the first where they explain no more than
+// that. Beside causes whose own form is never quite that of the real thing, a share of what they explain.
+constexpr double kRivalLeast = 45.0;
+constexpr double kRivalMost = 60.0;
 constexpr double kRivalShare = 0.12;
 // Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have; and
-// the share of the value, for the form of a strong cause is never quite that of the real thing.
+// the share of itself by which it then changes. Motors are what they are only nearly.
 constexpr double kChanges = 2.8;
 constexpr double kChangesBy = 0.1;
+constexpr double kMotorChangesBy = 0.5;
 // Standard deviations of a payload's mass from none below which only its moment was seen.
 constexpr double kMassSeen = 5.0;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
@@ -40,23 +42,38 @@ bool may_be_one_payload(const SearchResult& search) {
   return !is_candidate(search, "payload") && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
 }
 
-// Whether the value of a cause is one of the vehicle as it stands, which no flight changes. What air, battery
-// and motors do follows its equation only nearly.
-bool stays_put(const Candidate& cause) {
-  constexpr std::array nearly = {"battery_sag",       "motor_delay",      "thrust_curve",
-                                 "parameter:omega_m", "parameter:zeta_m", "parameter:km"};
-  if (std::ranges::find(nearly, cause.name) != nearly.end()) return false;
+bool is_one_of(const Candidate& cause, std::initializer_list<const char*> names) {
+  return std::ranges::find(names, cause.name) != names.end();
+}
+
+// What motors do follows its equation only nearly; what air, ground and battery do, less than that.
+bool is_of_motors(const Candidate& cause) {
+  return is_one_of(
+      cause, {"motor_delay", "motor_asymmetry", "parameter:omega_m", "parameter:zeta_m", "parameter:km"});
+}
+bool is_loose(const Candidate& cause) {
   const EffectEntry* effect = find_effect(cause.name);
-  return !effect || (effect->info.touches & (kTouchFlow | kTouchHeight)) == 0;
+  return is_one_of(cause, {"battery_sag", "thrust_curve"}) ||
+         (effect && (effect->info.touches & (kTouchFlow | kTouchHeight)) != 0);
 }
 
 // The cause found whose value changes from one part of the flight to the next though it should not: another
 // one acts there in its place.
 const Candidate* changing(const SearchResult& search) {
   const double most = kChanges * std::max(search.usual_scatter(), 1.0);
-  for (const Candidate& c : search.best.adopted)
-    if (stays_put(c) && search.scatter_of(c) > most && search.change_of(c) > kChangesBy) return &c;
+  for (const Candidate& c : search.best.adopted) {
+    const double by = is_of_motors(c) ? kMotorChangesBy : kChangesBy;
+    if (!is_loose(c) && search.scatter_of(c) > most && search.change_of(c) > by) return &c;
+  }
   return nullptr;
+}
+
+// What a regression may gain on held-out flight beside the causes found.
+double allowed_rival(const SearchResult& search) {
+  const double least = std::clamp(search.explained, kRivalLeast, kRivalMost);
+  const bool nearly = std::ranges::any_of(search.best.adopted,
+                                          [](const Candidate& c) { return is_loose(c) || is_of_motors(c); });
+  return nearly ? std::max(least, kRivalShare * search.explained) : least;
 }
 
 bool is_found(const SearchResult& search, const std::string& name) {
@@ -105,7 +122,7 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
                            const std::vector<Parameter>& fitted) {
   if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed))
     return "most of the gap remains with it";
-  if (rival.total() > std::max(kRivalBeside, kRivalShare * search.explained))
+  if (rival.total() > allowed_rival(search))
     return "a plain regression on the flight predicts what it leaves, most in " + rival.strongest();
   if (const Parameter* p = contradicted(fitted, search.best.adopted))
     return fmt::format(
