@@ -142,7 +142,7 @@ class Search {
     for (int c = 0; c < static_cast<int>(now_.problem.candidates.size()); ++c) {
       if (std::ranges::find(now_.have, c) != now_.have.end()) continue;
       const auto is_it = [&](const Candidate& t) { return same(t, candidate(c)); };
-      if (std::ranges::any_of(fell_, is_it)) continue;
+      if (std::ranges::any_of(fell_, is_it) || std::ranges::any_of(dropped_, is_it)) continue;
       const Further f = further(now_, now_.have, c);
       if (f.passes()) passed.push_back(f);
       if (f.possible && f.gain > uneven.gain && std::ranges::none_of(tried_, is_it)) uneven = f;
@@ -217,6 +217,9 @@ class Search {
       if (std::ranges::includes(set.members, now_.have)) own += set.probability;
     }
     if (!best || own > kHardly * all) return false;
+    // One of two that gains enough to be found stays; a third that weighs nothing goes.
+    const bool drops = std::ranges::includes(now_.have, best->members);
+    if (drops && static_cast<int>(now_.have.size()) <= kOften) return false;
     std::string names;
     for (const int c : best->members) names += (names.empty() ? "" : ", ") + described(candidate(c));
     tell(done(), names);
@@ -226,6 +229,10 @@ class Search {
     Standing there = at(std::move(model));
     if (there.have.size() != best->members.size()) return false;  // one acts only through what was dropped
     if (!(log_odds(there, there.have, places_of(before, there.problem)) > 0)) return false;
+    if (drops)
+      for (const Candidate& c : before)
+        if (std::ranges::none_of(there.model.adopted, [&](const Candidate& k) { return same(c, k); }))
+          dropped_.push_back(c);
     now_ = std::move(there);
     before_mass_.reset();
     tried_.clear();
@@ -261,6 +268,7 @@ class Search {
   std::vector<Candidate> kept_;          // found before all others, never exchanged
   std::vector<Candidate> tried_;         // and found no better where they act
   std::vector<Candidate> fell_;          // whose fit ran away
+  std::vector<Candidate> dropped_;       // of three that weighed nothing
   std::optional<Standing> before_mass_;  // where no cause that moves masses was in the model
   std::size_t steps_before_mass_ = 0;
   SearchResult out_;
