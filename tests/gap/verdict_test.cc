@@ -21,9 +21,8 @@ struct Case {
     for (const std::string& name : candidates) search.problem.candidates.push_back({name});
     for (const std::string& name : found) {
       search.best.adopted.push_back({name});
-      search.steps.push_back({name, 1000.0});
+      search.alone.push_back({name, 1000.0});
     }
-    search.explained = 1000.0 * static_cast<double>(found.size());
     closes({0.9, 1.0}, 0.97);
   }
   void closes(std::array<double, 2> ci95, double closed) { gap = {closed, ci95, 10.0, 1.1, 1.0}; }
@@ -84,7 +83,7 @@ TEST(Verdict, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIsExplai
   exact.rival.gain[0] = 65.0;
   EXPECT_EQ(exact.judged().status, "unknown");
   exact.rival.gain[0] = 50.0;
-  exact.search.explained = 40.0;  // the regression sees more than the cause does
+  exact.search.alone[0].gain = 40.0;  // the regression sees more than the cause does
   EXPECT_EQ(exact.judged().status, "unknown");
 }
 
@@ -127,7 +126,7 @@ TEST(Verdict, TwoCausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
 
 // Ten parts of a flight that disagree on the size of the first cause, and agree on that of the others.
 void disagrees(Case& c) {
-  c.search.steps[0].gain = 100;
+  c.search.alone[0].gain = 100;
   c.search.form.scores = Eigen::MatrixXd::Zero(3, 10);
   for (int part = 0; part < 10; ++part) {
     const double sign = part % 2 == 0 ? 1.0 : -1.0;
@@ -147,12 +146,12 @@ TEST(Verdict, AConstantOfTheVehicleThatChangesInFlightIsNotTheCause) {
   EXPECT_EQ(air.judged().status, "identified");
   Case strong({"cg_offset", "rotor_drag", "imu_bias"}, {"cg_offset"});
   disagrees(strong);
-  strong.search.steps[0].gain = 1e5;  // it changes by a hundredth of itself
+  strong.search.alone[0].gain = 1e5;  // it changes by a hundredth of itself
   EXPECT_EQ(strong.judged().status, "identified");
   Case motor({"motor_asymmetry", "rotor_drag", "imu_bias"}, {"motor_asymmetry"});
   disagrees(motor);  // by less than half of itself: motors are what they are only nearly
   EXPECT_EQ(motor.judged().status, "identified");
-  motor.search.steps[0].gain = 20;
+  motor.search.alone[0].gain = 20;
   EXPECT_EQ(motor.judged().status, "unknown");
   geometry.search.form.scores.bottomRows(2) *= 4;  // what the colour of the residuals does to all
   EXPECT_EQ(geometry.judged().status, "identified");

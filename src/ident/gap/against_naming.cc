@@ -70,10 +70,10 @@ const Candidate* changing(const SearchResult& search) {
 
 // What a regression may gain on held-out flight beside the causes found.
 double allowed_rival(const SearchResult& search) {
-  const double least = std::clamp(search.explained, kRivalLeast, kRivalMost);
+  const double least = std::clamp(search.explained(), kRivalLeast, kRivalMost);
   const bool nearly = std::ranges::any_of(search.best.adopted,
                                           [](const Candidate& c) { return is_loose(c) || is_of_motors(c); });
-  return nearly ? std::max(least, kRivalShare * search.explained) : least;
+  return nearly ? std::max(least, kRivalShare * search.explained()) : least;
 }
 
 bool is_found(const SearchResult& search, const std::string& name) {

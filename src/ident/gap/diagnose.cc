@@ -200,7 +200,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Json steps = Json::array();
   for (const SearchStep& s : search.steps) steps.push_back({{"adopted", s.name}, {"gain", s.gain}});
   result.extra["search"] = steps;
-  result.extra["explained"] = search.explained;
+  result.extra["explained"] = search.explained();
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =

@@ -61,21 +61,41 @@ MatrixXd features(const FlightRecord& record, const FlightSmoother& smoother, do
   return X;
 }
 
+// [arc][row]: the motors by their commands alone. What was measured of them would bring its noise into both
+// sides of the regression.
+using Motors = std::vector<std::vector<std::array<MotorState<double>, kMaxRotors>>>;
+Motors commanded_motors(const FlightRecord& record, const std::vector<double>& p) {
+  Motors out;
+  const EffectSet<double> effects(p, active_effects(p));
+  for (const FlightArc& arc : record.arcs) {
+    Flight<double, EffectSet<double>> flight(*record.vehicle, p, effects, *arc.inputs);
+    std::array<MotorState<double>, kMaxRotors> motors{};
+    for (std::size_t n = 0; n < record.vehicle->rotors.size() && arc.inputs->commanded(); ++n)
+      motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
+    out.emplace_back();
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      out.back().push_back(motors);
+      if (i + 1 < arc.rows()) flight.advance(motors, arc.t[i], arc.t[i + 1] - arc.t[i]);
+    }
+  }
+  return out;
+}
+
 int part_of(const FlightArc& arc, int number, std::size_t row) {
   return static_cast<int>(std::abs(arc.t[row]) / kPart) + 1000 * number;
 }
 
 // X and the mean size of each rotor's acceleration over the chunk: what differs between speeding up and
 // slowing down shows in nothing else.
-MatrixXd with_effort(const MatrixXd& X, const FlightRecord& record, const FlightSmoother& smoother) {
-  MatrixXd effort = MatrixXd::Zero(X.rows(), record.layout.rotors);
+MatrixXd with_effort(const MatrixXd& X, int rotors, const FlightSmoother& smoother, const Motors& motors) {
+  MatrixXd effort = MatrixXd::Zero(X.rows(), rotors);
   for (Index k = 0; k < X.rows(); ++k) {
     const ChunkPlace& place = smoother.chunks()[static_cast<std::size_t>(k)];
-    const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+    const auto& arc = motors[static_cast<std::size_t>(place.arc)];
     const double share = 1.0 / static_cast<double>(std::max<std::size_t>(place.end - place.begin, 1));
     for (std::size_t i = place.begin; i < place.end; ++i)
       for (Index n = 0; n < effort.cols(); ++n)
-        effort(k, n) += share * std::abs(arc.start[i].motors[static_cast<std::size_t>(n)].Omega_dot);
+        effort(k, n) += share * std::abs(arc[i][static_cast<std::size_t>(n)].Omega_dot);
   }
   standardise(effort);
   MatrixXd all(X.rows(), X.cols() + effort.cols());
@@ -114,13 +134,31 @@ void add_sensors(Rival& rival, const FlightRecord& record, const FlightSmoother&
   }
 }
 
+// Takes out what is the same over all pieces of an owner: the command of a hover is rounded by an amount of
+// its own for each rotor and log.
+void centre(MatrixXd& X, SensorResiduals& of, const std::vector<int>& owner) {
+  const int owners = 1 + *std::ranges::max_element(owner);
+  VectorXd residual = VectorXd::Zero(owners), weight = VectorXd::Constant(owners, 1e-300);
+  MatrixXd mean = MatrixXd::Zero(owners, X.cols());
+  for (Index i = 0; i < X.rows(); ++i) {
+    const int k = owner[static_cast<std::size_t>(i)];
+    residual[k] += of.sum[i], weight[k] += of.count[i];
+    mean.row(k) += of.count[i] * X.row(i);
+  }
+  for (Index i = 0; i < X.rows(); ++i) {
+    const int k = owner[static_cast<std::size_t>(i)];
+    of.sum[i] -= of.count[i] * residual[k] / weight[k];
+    X.row(i) -= mean.row(k) / weight[k];
+  }
+}
+
 // The rotors' speeds once more, in pieces as short as motors are fast, by what each does itself: one
 // regression for all of them.
 void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& smoother,
-                const std::vector<std::vector<double>>& residuals, double hover) {
+                const std::vector<std::vector<double>>& residuals, const Motors& motors, double hover) {
   if (!record.signals.commands || !record.signals.rotor_speeds) return;
   std::vector<double> features, sum, count;
-  std::vector<int> parts;
+  std::vector<int> parts, owner;
   const auto rotors = static_cast<std::size_t>(record.layout.rotors);
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const ChunkPlace& place = smoother.chunks()[k];
@@ -131,7 +169,7 @@ void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& 
       for (std::size_t n = 0; n < rotors; ++n) {
         double speed = 0, change = 0, effort = 0;
         for (std::size_t i = begin; i < end; ++i) {
-          const MotorState<double>& motor = arc.start[i].motors[n];
+          const MotorState<double>& motor = motors[static_cast<std::size_t>(place.arc)][i][n];
           speed += share * motor.Omega, change += share * motor.Omega_dot;
           effort += share * std::abs(motor.Omega_dot);
         }
@@ -139,17 +177,16 @@ void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& 
         features.insert(features.end(), {speed, speed * speed, change, effort, change * effort});
         sum.push_back(here.sum), count.push_back(here.count);
         parts.push_back(part_of(arc, place.arc, begin));
+        owner.push_back(arc.log * record.layout.rotors + static_cast<int>(n));
       }
     }
   }
   const auto pieces = static_cast<Index>(parts.size());
-  const SensorResiduals of{Eigen::Map<VectorXd>(sum.data(), pieces),
-                           Eigen::Map<VectorXd>(count.data(), pieces)};
+  SensorResiduals of{Eigen::Map<VectorXd>(sum.data(), pieces), Eigen::Map<VectorXd>(count.data(), pieces)};
   if (of.count.sum() < kLeast) return;
   MatrixXd X = Eigen::Map<MatrixXd>(features.data(), kMotorFeatures, pieces).transpose();
+  centre(X, of, owner);
   standardise(X);
-  X.conservativeResize(Eigen::NoChange, kMotorFeatures + 1);
-  X.rightCols<1>().setOnes();
   rival.sensors.emplace_back("motors", held_out_gain(of, X, parts));
 }
 
@@ -186,7 +223,8 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   const MatrixXd X = features(record, smoother, hover);
   const auto residuals = smoother.residuals();
   add_sensors(rival, record, smoother, residuals, X);
-  add_motors(rival, record, smoother, residuals, hover);
+  const Motors motors = commanded_motors(record, p);
+  add_motors(rival, record, smoother, residuals, motors, hover);
   const PriorTerms prior = theta.prior(fit.u);
   double push = 0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
@@ -195,7 +233,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
       push += air.v_dot[k].sigma / (3 * static_cast<double>(floor.air.size()));
       turn[static_cast<Index>(k)] += air.w_dot[k].sigma / static_cast<double>(floor.air.size());
     }
-  const MatrixXd all = with_effort(X, record, smoother);
+  const MatrixXd all = with_effort(X, record.layout.rotors, smoother, motors);
   for (int channel = 0; channel < 6; ++channel) {
     const bool force = channel < 3;
     if (force ? record.layout.v_dot < 0 : record.layout.w_dot < 0) continue;

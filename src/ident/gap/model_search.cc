@@ -40,6 +40,12 @@ double SearchResult::probability_of(const std::string& name) const {
   return std::min(sum, 1.0);
 }
 
+double SearchResult::explained() const {
+  double sum = 0;
+  for (const SearchStep& cause : alone) sum += cause.gain;
+  return sum;
+}
+
 double SearchResult::scatter_of(const Candidate& adopted) const {
   for (const Candidate& c : problem.candidates)
     if (same(c, adopted)) return own_stretch(form, c);
@@ -49,8 +55,8 @@ double SearchResult::scatter_of(const Candidate& adopted) const {
 // A block of B tells the value with a variance of B / (information of all), and the gain is value^2 times
 // that information.
 double SearchResult::change_of(const Candidate& adopted) const {
-  const auto step = std::ranges::find(steps, described(adopted), &SearchStep::name);
-  if (step == steps.end() || !(step->gain > 0)) return 0.0;
+  const auto step = std::ranges::find(alone, described(adopted), &SearchStep::name);
+  if (step == alone.end() || !(step->gain > 0)) return 0.0;
   const double scatter = scatter_of(adopted), gain = step->gain * scatter;
   return std::sqrt((scatter - 1) * static_cast<double>(form.scores.cols()) / gain);
 }
@@ -84,7 +90,7 @@ class Search {
     for (const int c : places_of(fell_, now_.problem))
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
     out_.sets = weighed_sets(now_);
-    for (const SearchStep& step : steps_here()) out_.explained += step.gain;
+    out_.alone = steps_here();
     fit_.tolerance = 0.02;
     finish_fit(now_.model.fit, *now_.model.theta, fit_);
     out_.best = std::move(now_.model);

@@ -20,12 +20,14 @@ struct SearchResult {
   QuadraticForm base_form;
   std::vector<WeighedSet> sets;  ///< most probable first
   std::vector<SearchStep> steps;
-  double explained =
-      0.0;  ///< sum of what each cause found gains beside the others under the noise they leave
+  std::vector<SearchStep>
+      alone;  ///< what each cause found gains beside the others under the noise they leave
   std::vector<std::string>
       ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 
   double probability_of(const std::string& name) const;
+  /// What the causes found gain, each beside the others.
+  double explained() const;
   /// Scatter of an adopted cause's value over blocks of flight, in units of what noise makes: 1 for a true
   /// cause.
   double scatter_of(const Candidate& adopted) const;

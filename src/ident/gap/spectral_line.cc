@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kChance = 5.6;     // standard deviations: one in ten thousand over some ten thousand bins
 constexpr double kMaterial = 0.02;  // share of the variance
+// Height of a line of an acceleration from outside over what is around it: what the smoother makes of gusts
+// is not as even as what sensors leave.
+constexpr double kAirLine = 8.0;
 
 using Pieces = std::vector<std::vector<double>>;  // of a series, evenly sampled, one for each arc
 
@@ -43,9 +46,10 @@ double running_median(const std::vector<double>& power, std::size_t k) {
   return *middle;
 }
 
-// The strongest line of a series sampled every h seconds, if there is one, up to the share `highest` of the
-// band.
-void look_for_line(const std::string& channel, const Pieces& pieces, double h, double highest,
+// The strongest line of a series sampled every h seconds, if there is one. `air`: of an acceleration from
+// outside, of which the smoother leaves next to nothing at the upper end of the band: any ripple there looks
+// like a line.
+void look_for_line(const std::string& channel, const Pieces& pieces, double h, bool air,
                    std::vector<SpectralLine>& out) {
   std::size_t longest = 0;
   for (const auto& piece : pieces) longest = std::max(longest, piece.size());
@@ -55,11 +59,12 @@ void look_for_line(const std::string& channel, const Pieces& pieces, double h, d
   int count = 0;
   const std::vector<double> power = welch(pieces, length, count);
   // Quantile of the mean of `count` periodograms over its median (Wilson and Hilferty).
-  const double v = 1 / (9 * 0.8 * count), most = std::pow((1 - v + kChance * std::sqrt(v)) / (1 - v), 3);
+  const double v = 1 / (9 * 0.8 * count), chance = std::pow((1 - v + kChance * std::sqrt(v)) / (1 - v), 3);
+  const double most = air ? std::max(chance, kAirLine) : chance;
   double total = 0, best = 0, share = 0;
   std::size_t at = 0;
   for (std::size_t k = 1; k < power.size(); ++k) total += power[k];
-  const auto last = static_cast<std::size_t>(highest * static_cast<double>(power.size()));
+  const auto last = static_cast<std::size_t>((air ? 0.8 : 1.0) * static_cast<double>(power.size()));
   for (std::size_t k = 4; k + 2 < last; ++k) {
     const double around = running_median(power, k), height = power[k] / std::max(around, 1e-300);
     if (height <= best || power[k] < power[k - 1] || power[k] < power[k + 1]) continue;
@@ -90,7 +95,7 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
     for (const auto& piece : pieces) samples += static_cast<double>(piece.size());
-    if (samples > 512) look_for_line(channel_name(channel), pieces, seconds / samples, 1.0, out);
+    if (samples > 512) look_for_line(channel_name(channel), pieces, seconds / samples, false, out);
   }
   static constexpr std::array names = {"Mx", "My", "Mz", "Fx", "Fy", "Fz"};
   for (int axis = 0; axis < 6; ++axis) {
@@ -103,9 +108,8 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
                                                                          : air.v_dot_W[axis - 3]);
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
-    // The smoother leaves next to nothing at the upper end of the band: any ripple there looks like a line.
     look_for_line(names[static_cast<std::size_t>(axis)], pieces, seconds / static_cast<double>(places.size()),
-                  0.8, out);
+                  true, out);
   }
   std::ranges::sort(out, std::greater<>(), &SpectralLine::height);
   return out;
