@@ -193,6 +193,14 @@ TEST(Verdict, MoreThanThreeNamesAreNoAnswer) {
   EXPECT_EQ(four.confused_with.size(), 4U);
 }
 
+TEST(Verdict, FlappingIsNotNamedWhereTheDragThatComesWithItWasNotTried) {
+  Case c({"blade_flapping", "rotor_drag"}, {"blade_flapping"});
+  c.weighs({0}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.problem.candidates.pop_back();
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
 TEST(Verdict, TheSameIllOfTwoRotorsIsNotNamed) {
   Case c({"rotor_mismatch", "rotor_mismatch", "rotor_tilt"}, {"rotor_mismatch"});
   c.search.best.adopted[0].rotor = 0;

@@ -80,6 +80,17 @@ bool is_found(const SearchResult& search, const std::string& name) {
   return std::ranges::any_of(search.best.adopted, [&](const Candidate& c) { return c.name == name; });
 }
 
+// A rotor that flaps drags as well. Flapping on a vehicle whose model and catalogue know no rotor drag does
+// its work.
+bool flaps_without_drag(const SearchResult& search) {
+  const auto stated = [&] {
+    return search.best.theta &&
+           search.best.theta->p(
+               search.best.fit.u)[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] != 0;
+  };
+  return is_found(search, "blade_flapping") && !is_candidate(search, "rotor_drag") && !stated();
+}
+
 // An effect that was needed on two rotors at once. One ill rotor is an accident; two that together do what
 // the residual wants are more likely two columns of a regression.
 std::string ill_twice(const SearchResult& search) {
@@ -138,6 +149,8 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
     return "of the payload the flight shows the moment and not the mass: a shift of the centre of gravity "
            "without "
            "one would do as well";
+  if (flaps_without_drag(search))
+    return "a rotor that flaps drags as well, and that was not among the causes tried";
   if (may_be_one_payload(search))
     return "all of that at once is what one thing bolted on would do, and a payload was not among the "
            "causes tried";
