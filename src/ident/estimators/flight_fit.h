@@ -40,8 +40,8 @@ struct FlightFit {
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
 /// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
-/// Slopes are exact: where links let next to no noise through, the rounding of single precision would pass for
-/// information. For a fit that was made with a larger tolerance.
+/// Slopes are exact: where links let next to no noise through, the rounding of single precision would pass
+/// for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
 /// The shared unknowns as the blocks that `take` accepts would have them: one Newton step from the fit.
