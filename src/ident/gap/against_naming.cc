@@ -147,8 +147,7 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
   const bool alone = search.best.adopted.size() == 1 && is_candidate(search, "cg_offset");
   if (weightless_payload(search, fitted) && !alone)
     return "of the payload the flight shows the moment and not the mass: a shift of the centre of gravity "
-           "without "
-           "one would do as well";
+           "without one would do as well";
   if (flaps_without_drag(search))
     return "a rotor that flaps drags as well, and that was not among the causes tried";
   if (may_be_one_payload(search))

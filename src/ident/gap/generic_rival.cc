@@ -134,31 +134,13 @@ void add_sensors(Rival& rival, const FlightRecord& record, const FlightSmoother&
   }
 }
 
-// Takes out what is the same over all pieces of an owner: the command of a hover is rounded by an amount of
-// its own for each rotor and log.
-void centre(MatrixXd& X, SensorResiduals& of, const std::vector<int>& owner) {
-  const int owners = 1 + *std::ranges::max_element(owner);
-  VectorXd residual = VectorXd::Zero(owners), weight = VectorXd::Constant(owners, 1e-300);
-  MatrixXd mean = MatrixXd::Zero(owners, X.cols());
-  for (Index i = 0; i < X.rows(); ++i) {
-    const int k = owner[static_cast<std::size_t>(i)];
-    residual[k] += of.sum[i], weight[k] += of.count[i];
-    mean.row(k) += of.count[i] * X.row(i);
-  }
-  for (Index i = 0; i < X.rows(); ++i) {
-    const int k = owner[static_cast<std::size_t>(i)];
-    of.sum[i] -= of.count[i] * residual[k] / weight[k];
-    X.row(i) -= mean.row(k) / weight[k];
-  }
-}
-
 // The rotors' speeds once more, in pieces as short as motors are fast, by what each does itself: one
 // regression for all of them.
 void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& smoother,
                 const std::vector<std::vector<double>>& residuals, const Motors& motors, double hover) {
   if (!record.signals.commands || !record.signals.rotor_speeds) return;
   std::vector<double> features, sum, count;
-  std::vector<int> parts, owner;
+  std::vector<int> parts;
   const auto rotors = static_cast<std::size_t>(record.layout.rotors);
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const ChunkPlace& place = smoother.chunks()[k];
@@ -177,16 +159,17 @@ void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& 
         features.insert(features.end(), {speed, speed * speed, change, effort, change * effort});
         sum.push_back(here.sum), count.push_back(here.count);
         parts.push_back(part_of(arc, place.arc, begin));
-        owner.push_back(arc.log * record.layout.rotors + static_cast<int>(n));
       }
     }
   }
   const auto pieces = static_cast<Index>(parts.size());
-  SensorResiduals of{Eigen::Map<VectorXd>(sum.data(), pieces), Eigen::Map<VectorXd>(count.data(), pieces)};
+  const SensorResiduals of{Eigen::Map<VectorXd>(sum.data(), pieces),
+                           Eigen::Map<VectorXd>(count.data(), pieces)};
   if (of.count.sum() < kLeast) return;
   MatrixXd X = Eigen::Map<MatrixXd>(features.data(), kMotorFeatures, pieces).transpose();
-  centre(X, of, owner);
   standardise(X);
+  X.conservativeResize(Eigen::NoChange, kMotorFeatures + 1);
+  X.rightCols<1>().setOnes();
   rival.sensors.emplace_back("motors", held_out_gain(of, X, parts));
 }
 

@@ -36,31 +36,25 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
 // Where no cause was found: what still says that something is there.
 Judged nothing_found(const Rival& rival, const std::vector<SpectralLine>& lines,
                      const std::vector<Burst>& jumps) {
-  Judged out;
-  if (rival.total() > kRivalGain) {
-    out.status = "unknown";
-    out.sentence =
+  Judged out{.status = "unknown"};
+  if (rival.total() > kRivalGain)
+    out.sentence = fmt::format(
         "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
-        "misses, most in " +
-        rival.strongest() + ", can be predicted from the flight itself.";
-  } else if (!lines.empty()) {
-    out.status = "unknown";
+        "misses, most in {}, can be predicted from the flight itself.",
+        rival.strongest());
+  else if (!lines.empty())
     out.sentence = fmt::format(
         "Something swings or vibrates at {} Hz (seen in {}) that no cause of the catalogue explains: a "
-        "slung or "
-        "loose load, a flexible arm, a propeller out of balance.",
+        "slung or loose load, a flexible arm, a propeller out of balance.",
         format_number(lines[0].hz, 3), lines[0].channel);
-  } else if (!jumps.empty()) {
-    out.status = "unknown";
+  else if (!jumps.empty())
     out.sentence = fmt::format(
         "Something strikes this vehicle at moments (seen in {}, most at {} s of log {}): the wash of "
-        "another "
-        "vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
+        "another vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
         jumps[0].channel, format_number(jumps[0].t, 3), jumps[0].log + 1);
-  } else {
-    out.status = "none";
-    out.sentence = "The model explains these logs down to the noise; no cause stands out.";
-  }
+  else
+    out = {.status = "none",
+           .sentence = "The model explains these logs down to the noise; no cause stands out."};
   return out;
 }
 
