@@ -109,6 +109,42 @@ TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
   EXPECT_NEAR(found.adopted.parameters.at("omega_m").value, truth, 0.1 * truth);
 }
 
+// Confidently wrong damping moves omega_m far in the same fit: it is not looked at with the lag held, where
+// no cause is seen any more.
+TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeContradicted) {
+  Vehicle model = published();
+  const FlightLog log = flight_of(model, 8);
+  const double truth = model.value("zeta_m");
+  model.parameters.at("zeta_m") = {0.6 * truth, 0.012 * truth};
+  model.parameters.at("omega_m").std = 0.1 * model.value("omega_m");
+  for (const char* name : {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"})
+    model.parameters.at(name).std = 0.05 * model.value(name);
+  const std::vector<FlightLog> logs{log};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"parameter:zeta_m"}))
+      << found.result.extra["verdict"];
+  EXPECT_NEAR(found.adopted.parameters.at("zeta_m").value, truth, 0.05 * truth);
+  GapOptions options;
+  options.exclude = {"parameter:zeta_m"};
+  const auto without = diagnose_gap(model, logs, options).result.extra["verdict"];
+  EXPECT_EQ(without["status"], "unknown") << without;
+}
+
+// A battery nearly empty makes motors seem slow beyond all physics at first sight.
+TEST(Diagnosis, AStrongBatterySagIsNotASlowMotorToo) {
+  Vehicle model = published();
+  model.parameters.at("omega_m").std = 0.1 * model.value("omega_m");
+  model.parameters.at("zeta_m").std = 0.1 * model.value("zeta_m");
+  for (const char* name : {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"})
+    model.parameters.at(name).std = 0.05 * model.value(name);
+  Vehicle truth = model;
+  truth.parameters["battery_sag.rate"] = {0.008, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 9)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"battery_sag"}))
+      << found.result.extra["verdict"];
+}
+
 // A heavy payload shows its inertia only where it acts: linearised at zero it is a shifted centre of gravity,
 // and then products of inertia.
 TEST(Diagnosis, AHeavyPayloadIsOneCauseNotTwo) {

@@ -201,6 +201,65 @@ TEST(Verdict, FlappingIsNotNamedWhereTheDragThatComesWithItWasNotTried) {
   EXPECT_EQ(c.judged().status, "unknown");
 }
 
+TEST(Verdict, ACauseOfTheDriveMayLeaveAThirdOfWhatItGainsAndOtherCausesLendItNothing) {
+  Case c({"battery_sag", "cg_offset"}, {"battery_sag"});
+  c.weighs({0}, 1.0);
+  c.rival.gain[2] = 300.0;
+  EXPECT_EQ(c.judged().status, "identified");
+  c.rival.gain[2] = 400.0;
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted.push_back({"cg_offset"});
+  c.search.alone.push_back({"cg_offset", 500.0});
+  c.search.sets = {{{0, 1}, 0.0, 1.0}};
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, ThreeWrongBenchValuesAtOnceAreNoAnswer) {
+  Case c({"parameter:m", "parameter:kT", "parameter:Jxx"}, {"parameter:m", "parameter:kT"});
+  for (int i = 0; i < 2; ++i) c.search.best.adopted[static_cast<std::size_t>(i)].parameter = i;
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  Candidate third{"parameter:Jxx"};
+  third.parameter = 2;
+  c.search.best.adopted.push_back(third);
+  c.search.sets = {{{0, 1, 2}, 0.0, 1.0}};
+  const Judged many = c.judged();
+  EXPECT_EQ(many.status, "unknown");
+  EXPECT_EQ(many.confused_with.size(), 3U);
+}
+
+TEST(Verdict, APayloadAndAShiftedCentreOfGravityAtOnceAreNoAnswer) {
+  Case c({"payload", "cg_offset"}, {"payload", "cg_offset"});
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, HowTheSensorIsMountedIsNamedOnTopOfThree) {
+  Case c({"rotor_drag", "wind", "ground_effect", "imu_bias", "imu_lever_arm"},
+         {"wind", "ground_effect", "imu_bias"});
+  c.weighs({1, 2, 3}, 0.6);
+  c.weighs({1, 2, 4}, 0.4);
+  const Judged mounted = c.judged();
+  EXPECT_EQ(mounted.status, "ambiguous");
+  EXPECT_EQ(mounted.effects.size() + mounted.confused_with.size(), 4U);
+  c.search.sets[1].members = {0, 2, 4};
+  c.search.best.adopted.push_back({"axial_inflow"});
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, WithoutACauseAContradictedBenchValueThatWasNotTriedIsAGap) {
+  Case c({"parameter:kT"}, {});
+  Parameter kT;
+  kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
+  kT.pull = 6.0, kT.from_flight = 0.9;
+  c.fitted = {kT};
+  EXPECT_EQ(c.judged().status, "none");  // tried, and it gains too little
+  c.search.problem.candidates[0].name = "parameter:m";
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "unknown");
+  EXPECT_NE(seen.sentence.find("kT"), std::string::npos) << seen.sentence;
+}
+
 TEST(Verdict, TheSameIllOfTwoRotorsIsNotNamed) {
   Case c({"rotor_mismatch", "rotor_mismatch", "rotor_tilt"}, {"rotor_mismatch"});
   c.search.best.adopted[0].rotor = 0;

@@ -10,6 +10,10 @@
 
 namespace ident {
 
+/// The constant that the flight, with the causes found, pulls furthest off its bench value, if too far. One
+/// whose value is among those causes may be anywhere.
+const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::vector<Candidate>& adopted);
+
 /// The first of the reasons that holds, as the end of a sentence; empty if nothing does: most of the gap
 /// remains, a regression predicts what is left, a bench value is contradicted, a constant of the vehicle
 /// changes in flight, or the causes are parts of a likelier one that was not tried.

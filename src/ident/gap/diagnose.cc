@@ -61,7 +61,7 @@ Json candidates_json(const SearchResult& search, const GapClosed& gap) {
     auto at = std::ranges::find(list, cause.name, &std::pair<std::string, Entry>::first);
     if (at == list.end()) at = list.insert(list.end(), {cause.name, Entry{}});
     const SetGain set = gain_of(search.base_form, search.base_problem, {static_cast<int>(c)});
-    at->second.gain = std::max(at->second.gain, set.physical ? set.gain : 0.0);
+    at->second.gain = std::max(at->second.gain, set.physical() ? set.gain : 0.0);
     const std::size_t many = cause.parameter >= 0 ? 1 : cause.directions.size();
     for (std::size_t d = 0; d < many; ++d) {
       const int i = cause.parameter >= 0 ? cause.parameter : cause.directions[d];

@@ -29,7 +29,8 @@ Further further(const Standing& at, const std::vector<int>& have, int candidate)
           set.price - now.price,
           own_stretch(at.form, at.problem.candidates[static_cast<std::size_t>(candidate)]),
           degrees,
-          set.physical && degrees >= 1};
+          set.physical() && degrees >= 1,
+          set.signs && !set.sizes && degrees >= 1};
 }
 
 std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& vehicle,
@@ -52,6 +53,10 @@ std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& v
 bool moves_mass(const Candidate& cause) {
   return cause.name == "cg_offset" || cause.name == "products_of_inertia" || cause.name == "parameter:m" ||
          cause.name == "parameter:Jxx" || cause.name == "parameter:Jyy" || cause.name == "parameter:Jzz";
+}
+
+bool is_of_mounting(const std::string& cause) {
+  return cause == "imu_bias" || cause == "imu_lever_arm" || cause == "imu_misalignment";
 }
 
 std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle& vehicle,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "ident/gap/next_model.h"
 
@@ -14,7 +15,8 @@ double own_stretch(const QuadraticForm& form, const Candidate& cause);
 struct Further {
   int candidate = -1;
   double gain = 0, price = 0, stretch = 1, degrees = 0;
-  bool possible = false;
+  bool possible = false;  ///< its size is one that physics allows
+  bool beyond = false;    ///< only too large
 
   /// Fall of the cost, corrected for colour.
   double honest() const { return gain / stretch; }
@@ -37,6 +39,10 @@ std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& v
 
 /// A cause that moves masses about, as something bolted on would.
 bool moves_mass(const Candidate& cause);
+
+/// How the sensor is mounted: it changes what is seen and not how the vehicle flies, and every real vehicle
+/// has some of it. Such causes come on top of those asked for.
+bool is_of_mounting(const std::string& cause);
 
 /// Two causes that move masses may be one payload, which shows its inertia only where it acts: tried from
 /// `before`, where neither was in the model. None unless it stands and none of `instead_of` gains beside it.

@@ -21,9 +21,13 @@ constexpr int kOften = 2;
 constexpr double kMaterial = 0.04;
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
+// And so many times what any other does where its size is beyond what it can have.
+constexpr double kFarMore = 10.0;
 // Causes found that are no more probable than this among all sets are exchanged, so often.
 constexpr double kHardly = 0.3;
 constexpr int kExchanges = 2;
+// And one of two goes if they are no more probable than this with it.
+constexpr double kAlmostNever = 0.03;
 
 }  // namespace
 
@@ -84,6 +88,7 @@ class Search {
     begin();
     for (int left = kExchanges;; --left) {
       while (add_one()) continue;
+      if (let_go()) continue;
       if (left == 0 || !exchange()) break;
     }
     // Those that still gain beside what was found.
@@ -135,23 +140,28 @@ class Search {
       }
       // Speeds that a missing cause puts off their commands make the motors seem slow, and then no cause that
       // acts through the commands is seen: it is looked for at the lag stated.
-      FittedModel held = with_lag_held(base, record_, p_, fit_);
-      if (stands(held)) out_.base = held, now_ = at(std::move(held));
+      if (FittedModel held = with_lag_held(base, record_, p_, fit_); stands(held))
+        if (Standing there = at(std::move(held)); shows_more(record_, there, now_))
+          out_.base = there.model, now_ = std::move(there);
     }
     out_.base_problem = now_.problem, out_.base_form = now_.form;
   }
 
   bool add_one() {
-    if (static_cast<int>(out_.steps.size()) >= options_.most_causes) return false;
+    const bool as_many_as_asked = of_vehicle(now_.have) >= options_.most_causes;
     std::vector<Further> passed;
     Further uneven;  // gains most, but a size that seems to change from block to block
+    Further beyond;  // gains most, but a size beyond what it can have
     for (int c = 0; c < static_cast<int>(now_.problem.candidates.size()); ++c) {
       if (std::ranges::find(now_.have, c) != now_.have.end()) continue;
+      if (as_many_as_asked && !is_of_mounting(candidate(c).name)) continue;
       const auto is_it = [&](const Candidate& t) { return same(t, candidate(c)); };
       if (std::ranges::any_of(fell_, is_it) || std::ranges::any_of(dropped_, is_it)) continue;
       const Further f = further(now_, now_.have, c);
       if (f.passes()) passed.push_back(f);
-      if (f.possible && f.gain > uneven.gain && std::ranges::none_of(tried_, is_it)) uneven = f;
+      if (std::ranges::any_of(tried_, is_it)) continue;
+      if (f.possible && f.gain > uneven.gain) uneven = f;
+      if (f.beyond && f.gain > beyond.gain) beyond = f;
     }
     Further best;
     if (!passed.empty()) {
@@ -159,6 +169,8 @@ class Search {
       best = *std::ranges::max_element(passed, {},
                                        [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
     }
+    // A strong cause overshoots where the model is bent in its place.
+    if (beyond.gain > kFarMore * uneven.gain) uneven = beyond;
     // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
     // where it acts.
     if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried_.size() < 2) {
@@ -176,8 +188,10 @@ class Search {
       }
       tried_.push_back(cause);
     }
-    double found = 0;
-    for (const SearchStep& s : out_.steps) found += s.gain;
+    double found = 0;  // a cause in the vehicle is measured against others there alone
+    for (const SearchStep& s : out_.steps)
+      if (best.candidate >= 0 && (is_of_mounting(candidate(best.candidate).name) || !is_of_mounting(s.name)))
+        found += s.gain;
     const bool often = static_cast<int>(out_.steps.size()) >= kOften;
     if (best.candidate < 0 || (often && best.honest() < kMaterial * found)) return false;
     const Candidate chosen = candidate(best.candidate);
@@ -208,6 +222,20 @@ class Search {
     return true;
   }
 
+  // Motors whose lag was taken for wrong before anything else was known: not if with what was found since
+  // they are as stated.
+  bool let_go() {
+    std::vector<int> others = now_.have;
+    for (const int c : places_of(kept_, now_.problem)) std::erase(others, c);
+    if (kept_.empty() || others.empty() || !lag_as_stated(now_.model)) return false;
+    kept_.clear();
+    FittedModel model = with_causes(record_, vehicle_, now_, others, fit_);
+    if (!stands(model)) return false;
+    now_ = at(std::move(model));
+    out_.steps = steps_here();
+    return true;
+  }
+
   // Where the weights speak against the causes found: the set that they prefer, if they still do with it in
   // the model. What came first was chosen with the others missing.
   bool exchange() {
@@ -223,9 +251,10 @@ class Search {
       if (std::ranges::includes(set.members, now_.have)) own += set.probability;
     }
     if (!best || own > kHardly * all) return false;
-    // One of two that gains enough to be found stays; a third that weighs nothing goes.
+    // One of two that gains enough to be found stays, unless the other does its work; a third that weighs
+    // nothing goes.
     const bool drops = std::ranges::includes(now_.have, best->members);
-    if (drops && static_cast<int>(now_.have.size()) <= kOften) return false;
+    if (drops && static_cast<int>(now_.have.size()) <= kOften && own > kAlmostNever * all) return false;
     std::string names;
     for (const int c : best->members) names += (names.empty() ? "" : ", ") + described(candidate(c));
     tell(done(), names);
@@ -251,7 +280,11 @@ class Search {
     const auto fell = [&](int c) {
       return std::ranges::any_of(fell_, [&](const Candidate& f) { return same(f, candidate(c)); });
     };
-    return static_cast<int>(set.size()) <= options_.most_causes && std::ranges::none_of(set, fell);
+    return of_vehicle(set) <= options_.most_causes && std::ranges::none_of(set, fell);
+  }
+  int of_vehicle(const std::vector<int>& set) const {
+    return static_cast<int>(
+        std::ranges::count_if(set, [&](int c) { return !is_of_mounting(candidate(c).name); }));
   }
 
   // What each cause found gains beside the others.

@@ -208,7 +208,7 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     const double least = least_of(candidate, problem, with.step - form.null);
     if (with.step[i] - form.null[i] >= least) continue;
     if (candidate.directions.size() == 1) {
-      out.physical = false;
+      out.signs = false;
       continue;
     }
     // A payload too light to be weighed: its mass stays at the bound, its place may still show.
@@ -222,8 +222,7 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     for (const int i : problem.candidates[static_cast<std::size_t>(c)].directions) {
       const FreeConstant& of = problem.constants[static_cast<std::size_t>(i)];
       const double size = std::abs(of.unit() * (with.step[i] - form.null[i]));
-      if (const EffectParameter* p = find_effect_parameter(of.name); p && size > p->limit)
-        out.physical = false;
+      if (const EffectParameter* p = find_effect_parameter(of.name); p && size > p->limit) out.sizes = false;
     }
   out.gain = with.drop - without.drop;
   out.step = with.step;

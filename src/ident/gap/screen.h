@@ -36,8 +36,11 @@ struct SetGain {
   double gain = 0.0;         ///< fall of the cost (twice the log likelihood)
   double degrees = 0.0;      ///< directions freed
   double price = 0.0;    ///< of the directions, in units of log likelihood: little where the data tell little
-  bool physical = true;  ///< signs as they must be
+  bool signs = true;     ///< as they must be
+  bool sizes = true;     ///< that physics allows
   Eigen::VectorXd step;  ///< of all unknowns at the optimum of the quadratic form
+
+  bool physical() const { return signs && sizes; }
 };
 SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& members);
 

@@ -10,6 +10,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/gap/against_naming.h"
+#include "ident/gap/further.h"
 
 namespace ident {
 namespace {
@@ -19,8 +20,8 @@ constexpr double kRivalGain = 45.0;
 // A cause is identified with this probability, and one that stands in its place is told of from that on.
 constexpr double kSure = 0.9;
 constexpr double kTold = 0.05;
-// An answer of more names than this is none.
-constexpr std::size_t kMostNames = 3;
+// An answer of more names than this, those of how the sensor is mounted apart, is none.
+constexpr std::ptrdiff_t kMostNames = 3;
 
 // The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
 std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
@@ -33,9 +34,20 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
   return names;
 }
 
+std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
+  return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
+}
+
+// The bench value that a flight without causes contradicts, if its being wrong was not among those tried.
+const Parameter* contradicted_untried(const SearchResult& search, const std::vector<Parameter>& fitted) {
+  const Parameter* p = contradicted(fitted, {});
+  const auto is_it = [&](const Candidate& c) { return c.name == "parameter:" + p->name; };
+  return p && std::ranges::none_of(search.problem.candidates, is_it) ? p : nullptr;
+}
+
 // Where no cause was found: what still says that something is there.
-Judged nothing_found(const Rival& rival, const std::vector<SpectralLine>& lines,
-                     const std::vector<Burst>& jumps) {
+Judged nothing_found(const SearchResult& search, const Rival& rival, const std::vector<SpectralLine>& lines,
+                     const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
   if (rival.total() > kRivalGain)
     out.sentence = fmt::format(
@@ -52,6 +64,11 @@ Judged nothing_found(const Rival& rival, const std::vector<SpectralLine>& lines,
         "Something strikes this vehicle at moments (seen in {}, most at {} s of log {}): the wash of "
         "another vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
         jumps[0].channel, format_number(jumps[0].t, 3), jumps[0].log + 1);
+  else if (const Parameter* p = contradicted_untried(search, fitted))
+    out.sentence = fmt::format(
+        "The flight contradicts the value of {} known beforehand by {:.0f} standard deviations, and no cause "
+        "that was tried explains it.",
+        p->name, std::abs(*p->pull));
   else
     out = {.status = "none",
            .sentence = "The model explains these logs down to the noise; no cause stands out."};
@@ -93,7 +110,7 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     return out;
   }
   out.effects = names_of(search.best.adopted);
-  if (out.effects.empty()) return nothing_found(rival, lines, jumps);
+  if (out.effects.empty()) return nothing_found(search, rival, lines, jumps, fitted);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (const std::string why = against_naming(search, gap, rival, fitted); !why.empty()) {
     out.sentence =
@@ -111,7 +128,7 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
   if (others.empty()) {
     out.status = "identified";
     out.sentence = fmt::format("The gap is explained by {}.", found);
-  } else if (out.effects.size() + others.size() > kMostNames) {
+  } else if (of_vehicle(out.effects) + of_vehicle(others) > kMostNames) {
     out.sentence = fmt::format(
         "A gap is there of which these logs do not tell the cause: {} explain it, but {} would about as "
         "well.",

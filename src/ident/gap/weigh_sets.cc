@@ -69,7 +69,7 @@ std::vector<WeighedSet> weighed_sets(const Standing& at) {
   double top = -1e300;
   for (const std::vector<int>& members : sets) {
     const SetGain set = gain_of(at.form, at.problem, members);
-    if (!set.physical) continue;
+    if (!set.physical()) continue;
     double stretch = common;
     for (const int c : members)
       if (at.model.adopted.empty())

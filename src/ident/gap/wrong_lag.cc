@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/gap/further.h"
+
 namespace ident {
 namespace {
 
 constexpr double kPulledFar = 5.0;  // standard deviations
+constexpr double kAsStated = 3.0;
 constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
 constexpr double kSlowest = 2.0;    // rad/s: below it the commands no longer move the model's rotors
 constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
@@ -17,12 +20,12 @@ double total_cost(FlightSmoother& smoother, const Theta& theta, const Eigen::Vec
   return std::isfinite(system.cost) ? system.cost + theta.prior(u).residual.squaredNorm() : kNaN;
 }
 
-bool pulled_far(const FittedModel& model, int index) {
+bool off(const FittedModel& model, int index, double deviations) {
   for (std::size_t i = 0; i < model.constants.size(); ++i) {
     const FreeConstant& c = model.constants[i];
     if (c.index != index || !c.prior_std) continue;
     const double value = model.theta->physical(model.fit.u, static_cast<int>(i));
-    return std::abs(value - c.prior_value) > kPulledFar * *c.prior_std;
+    return std::abs(value - c.prior_value) > deviations * *c.prior_std;
   }
   return false;
 }
@@ -47,10 +50,26 @@ double best_start(const FlightRecord& record, const std::vector<double>& p,
   return best;
 }
 
+// Misfit of a flight under other noise, its states at their best.
+double misfit(const FlightRecord& record, const FittedModel& model, const NoiseModel& noise) {
+  FlightSmoother smoother(record, *model.theta, noise, model.fit.chunk_seconds);
+  smoother.set_states(model.fit.smoother->states());
+  smoother.settle(model.fit.u, 2);
+  return smoother.linearize(model.fit.u).cost;
+}
+
+bool is_lag(const Candidate& cause) {
+  return cause.name == "parameter:omega_m" || cause.name == "parameter:zeta_m";
+}
+
 }  // namespace
 
 bool lag_pulled_far(const FittedModel& model) {
-  return pulled_far(model, param::omega_m) || pulled_far(model, param::zeta_m);
+  return off(model, param::omega_m, kPulledFar) || off(model, param::zeta_m, kPulledFar);
+}
+
+bool lag_as_stated(const FittedModel& model) {
+  return !off(model, param::omega_m, kAsStated) && !off(model, param::zeta_m, kAsStated);
 }
 
 std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
@@ -80,6 +99,19 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
                ratio = found / omega_m.prior_value;
   if (!(out.gain > 0) || found < kSlowest || std::max(ratio, 1 / ratio) < kNoPhysics) return {};
   return out;
+}
+
+bool shows_more(const FlightRecord& record, const Standing& held, const Standing& at_hand) {
+  const NoiseModel& noise = held.form.noise;
+  const double costs = misfit(record, held.model, noise) - misfit(record, at_hand.model, noise);
+  for (std::size_t c = 0; c < held.problem.candidates.size(); ++c) {
+    const Candidate& cause = held.problem.candidates[c];
+    const std::vector<int> there = places_of({cause}, at_hand.problem);
+    if (is_lag(cause) || there.empty()) continue;
+    const Further with = further(held, {}, static_cast<int>(c)), without = further(at_hand, {}, there[0]);
+    if (with.possible && with.gain - without.gain > costs) return true;
+  }
+  return false;
 }
 
 }  // namespace ident

@@ -4,8 +4,7 @@
 
 #include <optional>
 
-#include "ident/gap/fitted_model.h"
-#include "ident/gap/screen.h"
+#include "ident/gap/next_model.h"
 
 namespace ident {
 
@@ -19,11 +18,18 @@ struct WrongLag {
 /// Whether the flight pulls omega_m or zeta_m more than five standard deviations off what was stated.
 bool lag_pulled_far(const FittedModel& model);
 
+/// Whether the flight leaves both within three standard deviations of what was stated.
+bool lag_as_stated(const FittedModel& model);
+
 /// Where the model at hand pulls omega_m or zeta_m far off what was stated: the fit from the best of a wide
 /// range of omega_m, if it gains and ends so far off the stated value that no physics that the model lacks
 /// makes the difference. `p`: constants as stated.
 std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
                                   const FittedModel& at_hand, const ExtendedProblem& problem,
                                   const QuadraticForm& form, const FlightFitOptions& options);
+
+/// Whether with the motors' lag held where it was stated some other cause gains more than holding it costs:
+/// then the lag that the flight asks for does that cause's work. Both without causes.
+bool shows_more(const FlightRecord& record, const Standing& held, const Standing& at_hand);
 
 }  // namespace ident
