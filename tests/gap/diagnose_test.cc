@@ -145,6 +145,22 @@ TEST(Diagnosis, AStrongBatterySagIsNotASlowMotorToo) {
       << found.result.extra["verdict"];
 }
 
+// How the sensor is mounted does not use up the causes that were asked for.
+TEST(Diagnosis, HowTheSensorIsMountedComesOnTopOfTheCausesAskedFor) {
+  Vehicle truth = published();
+  const Vehicle model = truth;
+  truth.parameters["rotor_drag.kd"] = {3e-5, {}};
+  truth.parameters["imu_lever_arm.x"] = {0.03, {}};
+  truth.parameters["imu_misalignment.y"] = {0.03, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 10)};
+  GapOptions options;
+  options.most_causes = 1;
+  const auto verdict = diagnose_gap(model, logs, options).result.extra["verdict"];
+  Names effects = verdict["effects"];
+  std::ranges::sort(effects);
+  EXPECT_EQ(effects, (Names{"imu_lever_arm", "imu_misalignment", "rotor_drag"})) << verdict;
+}
+
 // A heavy payload shows its inertia only where it acts: linearised at zero it is a shifted centre of gravity,
 // and then products of inertia.
 TEST(Diagnosis, AHeavyPayloadIsOneCauseNotTwo) {

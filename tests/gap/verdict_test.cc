@@ -206,12 +206,16 @@ TEST(Verdict, ACauseOfTheDriveMayLeaveAThirdOfWhatItGainsAndOtherCausesLendItNot
   c.weighs({0}, 1.0);
   c.rival.gain[2] = 300.0;
   EXPECT_EQ(c.judged().status, "identified");
-  c.rival.gain[2] = 400.0;
+  std::swap(c.rival.gain[0], c.rival.gain[2]);  // a thrust of another form pushes nothing forward
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.rival.gain = {0, 0, 400.0, 0, 0, 0};
   EXPECT_EQ(c.judged().status, "unknown");
   c.search.best.adopted.push_back({"cg_offset"});
   c.search.alone.push_back({"cg_offset", 500.0});
   c.search.sets = {{{0, 1}, 0.0, 1.0}};
   EXPECT_EQ(c.judged().status, "unknown");
+  c.search.alone[0].gain = 1200.0;
+  EXPECT_EQ(c.judged().status, "identified");
 }
 
 TEST(Verdict, ThreeWrongBenchValuesAtOnceAreNoAnswer) {

@@ -1,6 +1,7 @@
 // What speaks against naming the causes that a search found.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,15 @@
 
 namespace ident {
 
-/// The constant that the flight, with the causes found, pulls furthest off its bench value, if too far. One
-/// whose value is among those causes may be anywhere.
-const Parameter* contradicted(const std::vector<Parameter>& fitted, const std::vector<Candidate>& adopted);
+/// The constant that the flight pulls furthest off its bench value, if too far; null if none. `excused`:
+/// those that may be anywhere, by the name of the cause that they are when wrong (parameter:kT).
+const Parameter* contradicted(const std::vector<Parameter>& fitted,
+                              const std::function<bool(const std::string&)>& excused);
 
 /// The first of the reasons that holds, as the end of a sentence; empty if nothing does: most of the gap
 /// remains, a regression predicts what is left, a bench value is contradicted, a constant of the vehicle
-/// changes in flight, or the causes are parts of a likelier one that was not tried.
+/// changes in flight, more would have to be wrong at once than go wrong, or the causes are parts of a
+/// likelier one that was not tried.
 std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
                            const std::vector<Parameter>& fitted);
 

@@ -16,7 +16,7 @@ namespace ident {
 
 struct GapOptions {
   std::vector<std::string> exclude;  ///< causes that must not be tried
-  int most_causes = 5;               ///< in the vehicle; how its sensor is mounted comes on top
+  int most_causes = 4;               ///< in the vehicle; how its sensor is mounted comes on top
   std::function<void(double, const std::string&)> progress;
 };
 

@@ -9,7 +9,7 @@
 
 #include "ident/core/error.h"
 #include "ident/estimators/statistics.h"
-#include "ident/gap/further.h"
+#include "ident/gap/next_cause.h"
 #include "ident/gap/wrong_lag.h"
 
 namespace ident {
@@ -21,8 +21,7 @@ constexpr int kOften = 2;
 constexpr double kMaterial = 0.04;
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
-// And so many times what any other does where its size is beyond what it can have.
-constexpr double kFarMore = 10.0;
+constexpr std::size_t kTrials = 2;
 // Causes found that are no more probable than this among all sets are exchanged, so often.
 constexpr double kHardly = 0.3;
 constexpr int kExchanges = 2;
@@ -87,10 +86,10 @@ class Search {
   SearchResult run() {
     begin();
     for (int left = kExchanges;; --left) {
-      while (add_one()) continue;
-      if (let_go()) continue;
+      while (add_one() || let_go()) continue;
       if (left == 0 || !exchange()) break;
     }
+    if (free_ && now_.model.adopted.empty()) base_is(std::move(*free_));
     // Those that still gain beside what was found.
     for (const int c : places_of(fell_, now_.problem))
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
@@ -104,10 +103,11 @@ class Search {
   }
 
  private:
-  void tell(double share, const std::string& what) const {
-    if (options_.progress) options_.progress(share, what);
+  // `further`: share of the search beyond the causes found so far.
+  void tell(double further, const std::string& what) const {
+    const double share = 0.15 * static_cast<double>(out_.steps.size()) + further;
+    if (options_.progress) options_.progress(std::min(share, 0.85), what);
   }
-  double done() const { return 0.2 + 0.2 * static_cast<double>(out_.steps.size()); }
   const Candidate& candidate(int c) const { return now_.problem.candidates[static_cast<std::size_t>(c)]; }
   Standing at(FittedModel model) const {
     return standing_at(record_, vehicle_, options_.exclude, std::move(model));
@@ -127,10 +127,10 @@ class Search {
     out_.base = fitted(base, {}, record_, p_, fit_);
     if (!stands(out_.base))
       throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
-    tell(0.15, "every cause");
+    tell(0.05, "every cause");
     now_ = at(out_.base);
     if (lag_pulled_far(out_.base)) {
-      tell(0.2, "the motors' lag");
+      tell(0.1, "the motors' lag");
       if (auto lag = wrong_lag(record_, p_, out_.base, now_.problem, now_.form, fit_)) {
         out_.steps.push_back({described(lag->cause), lag->gain / own_stretch(now_.form, lag->cause)});
         kept_.push_back(lag->cause);
@@ -140,63 +140,45 @@ class Search {
       }
       // Speeds that a missing cause puts off their commands make the motors seem slow, and then no cause that
       // acts through the commands is seen: it is looked for at the lag stated.
-      if (FittedModel held = with_lag_held(base, record_, p_, fit_); stands(held))
+      FlightFitOptions alike = fit_;
+      alike.chunk_seconds = out_.base.fit.chunk_seconds;
+      if (FittedModel held = with_lag_held(base, record_, p_, alike); stands(held))
         if (Standing there = at(std::move(held)); shows_more(record_, there, now_))
-          out_.base = there.model, now_ = std::move(there);
+          free_ = std::exchange(now_, std::move(there));
     }
-    out_.base_problem = now_.problem, out_.base_form = now_.form;
+    base_is(std::move(now_));
+  }
+
+  void base_is(Standing standing) {
+    now_ = std::move(standing);
+    out_.base = now_.model, out_.base_problem = now_.problem, out_.base_form = now_.form;
+  }
+
+  // Another model, of causes that were not added one by one.
+  void move_to(Standing there) {
+    now_ = std::move(there);
+    before_mass_.reset();
+    tried_.clear();
+    out_.steps = steps_here();
   }
 
   bool add_one() {
     const bool as_many_as_asked = of_vehicle(now_.have) >= options_.most_causes;
-    std::vector<Further> passed;
-    Further uneven;  // gains most, but a size that seems to change from block to block
-    Further beyond;  // gains most, but a size beyond what it can have
-    for (int c = 0; c < static_cast<int>(now_.problem.candidates.size()); ++c) {
-      if (std::ranges::find(now_.have, c) != now_.have.end()) continue;
-      if (as_many_as_asked && !is_of_mounting(candidate(c).name)) continue;
+    const auto barred = [&](int c) {
       const auto is_it = [&](const Candidate& t) { return same(t, candidate(c)); };
-      if (std::ranges::any_of(fell_, is_it) || std::ranges::any_of(dropped_, is_it)) continue;
-      const Further f = further(now_, now_.have, c);
-      if (f.passes()) passed.push_back(f);
-      if (std::ranges::any_of(tried_, is_it)) continue;
-      if (f.possible && f.gain > uneven.gain) uneven = f;
-      if (f.beyond && f.gain > beyond.gain) beyond = f;
-    }
-    Further best;
-    if (!passed.empty()) {
-      const double common = std::ranges::max_element(passed, {}, &Further::gain)->stretch;
-      best = *std::ranges::max_element(passed, {},
-                                       [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
-    }
-    // A strong cause overshoots where the model is bent in its place.
-    if (beyond.gain > kFarMore * uneven.gain) uneven = beyond;
+      return (as_many_as_asked && !is_of_mounting(candidate(c).name)) || std::ranges::any_of(fell_, is_it) ||
+             std::ranges::any_of(dropped_, is_it);
+    };
+    const auto [best, uneven] = next_cause(now_, barred, tried_);
     // A delay or a lever arm, linearised where it is zero, gains most and yet looks uneven: it is judged
     // where it acts.
-    if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried_.size() < 2) {
-      const Candidate cause = candidate(uneven.candidate);
-      tell(done() + 0.05, described(cause));
-      auto trial = tried_in_full(record_, vehicle_, options_.exclude, now_, uneven.candidate, fit_);
-      if (!trial) {
-        fell_.push_back(cause);
-        return true;
-      }
-      const double gain = trial->own.honest();
-      if (trial->own.passes() && gain > best.honest()) {
-        adopt(cause, std::move(*trial), gain);
-        return true;
-      }
-      tried_.push_back(cause);
+    if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried_.size() < kTrials) {
+      if (try_uneven(uneven, best.honest()) || best.candidate < 0) return true;
     }
-    double found = 0;  // a cause in the vehicle is measured against others there alone
-    for (const SearchStep& s : out_.steps)
-      if (best.candidate >= 0 && (is_of_mounting(candidate(best.candidate).name) || !is_of_mounting(s.name)))
-        found += s.gain;
-    const bool often = static_cast<int>(out_.steps.size()) >= kOften;
-    if (best.candidate < 0 || (often && best.honest() < kMaterial * found)) return false;
+    if (best.candidate < 0 || !is_material(best)) return false;
     const Candidate chosen = candidate(best.candidate);
     if (moves_mass(chosen) && take_payload_instead(chosen)) return true;
-    tell(done() + 0.1, described(chosen));
+    tell(0.1, described(chosen));
     auto next = tried_in_full(record_, vehicle_, options_.exclude, now_, best.candidate, fit_);
     if (!next) {
       fell_.push_back(chosen);
@@ -206,10 +188,38 @@ class Search {
     return true;
   }
 
+  // False: tried, and no better where it acts than the best of the others.
+  bool try_uneven(const Further& uneven, double others) {
+    const Candidate cause = candidate(uneven.candidate);
+    tell(0.05, described(cause));
+    auto trial = tried_in_full(record_, vehicle_, options_.exclude, now_, uneven.candidate, fit_);
+    if (!trial && uneven.possible) {
+      fell_.push_back(cause);
+      return true;
+    }
+    if (trial && trial->own.passes() && trial->own.honest() > others) {
+      const double gain = trial->own.honest();
+      adopt(cause, std::move(*trial), gain);
+      return true;
+    }
+    tried_.push_back(cause);
+    return false;
+  }
+
+  // Whether a third or further cause explains its share; one in the vehicle is measured against others there.
+  bool is_material(const Further& next) const {
+    if (static_cast<int>(out_.steps.size()) < kOften) return true;
+    const bool mounting = is_of_mounting(candidate(next.candidate).name);
+    double found = 0;
+    for (const SearchStep& s : out_.steps)
+      if (mounting || !is_of_mounting(s.name)) found += s.gain;
+    return next.honest() >= kMaterial * found;
+  }
+
   // One payload in place of all causes that move masses, `next` among them.
   bool take_payload_instead(const Candidate& next) {
     if (!before_mass_) return false;
-    tell(done() + 0.1, "payload");
+    tell(0.1, "payload");
     std::vector<Candidate> moving{next};
     std::ranges::copy_if(now_.model.adopted, std::back_inserter(moving), moves_mass);
     auto payload = payload_instead(record_, vehicle_, options_.exclude, *before_mass_, moving, fit_);
@@ -228,11 +238,10 @@ class Search {
     std::vector<int> others = now_.have;
     for (const int c : places_of(kept_, now_.problem)) std::erase(others, c);
     if (kept_.empty() || others.empty() || !lag_as_stated(now_.model)) return false;
-    kept_.clear();
     FittedModel model = with_causes(record_, vehicle_, now_, others, fit_);
     if (!stands(model)) return false;
-    now_ = at(std::move(model));
-    out_.steps = steps_here();
+    kept_.clear();
+    move_to(at(std::move(model)));
     return true;
   }
 
@@ -251,27 +260,27 @@ class Search {
       if (std::ranges::includes(set.members, now_.have)) own += set.probability;
     }
     if (!best || own > kHardly * all) return false;
-    // One of two that gains enough to be found stays, unless the other does its work; a third that weighs
+    // One of two that gains enough to be found stays unless the other does its work; a third that weighs
     // nothing goes.
     const bool drops = std::ranges::includes(now_.have, best->members);
     if (drops && static_cast<int>(now_.have.size()) <= kOften && own > kAlmostNever * all) return false;
     std::string names;
     for (const int c : best->members) names += (names.empty() ? "" : ", ") + described(candidate(c));
-    tell(done(), names);
+    tell(0.1, names);
     FittedModel model = with_causes(record_, vehicle_, now_, best->members, fit_);
     if (!stands(model)) return false;
     const std::vector<Candidate> before = now_.model.adopted;
     Standing there = at(std::move(model));
     if (there.have.size() != best->members.size()) return false;  // one acts only through what was dropped
     if (!(log_odds(there, there.have, places_of(before, there.problem)) > 0)) return false;
-    if (drops)
-      for (const Candidate& c : before)
-        if (std::ranges::none_of(there.model.adopted, [&](const Candidate& k) { return same(c, k); }))
-          dropped_.push_back(c);
-    now_ = std::move(there);
-    before_mass_.reset();
-    tried_.clear();
-    out_.steps = steps_here();
+    if (drops) {
+      std::vector<int> gone = places_of(before, there.problem);
+      std::erase_if(gone, [&](int c) { return std::ranges::find(there.have, c) != there.have.end(); });
+      if (std::ranges::any_of(gone, [&](int c) { return further(there, there.have, c).passes(); }))
+        return false;  // what it was adopted for is still there
+      for (const int c : gone) dropped_.push_back(there.problem.candidates[static_cast<std::size_t>(c)]);
+    }
+    move_to(std::move(there));
     return true;
   }
 
@@ -307,7 +316,8 @@ class Search {
   std::vector<Candidate> kept_;          // found before all others, never exchanged
   std::vector<Candidate> tried_;         // and found no better where they act
   std::vector<Candidate> fell_;          // whose fit ran away
-  std::vector<Candidate> dropped_;       // of three that weighed nothing
+  std::vector<Candidate> dropped_;       // the others do their work
+  std::optional<Standing> free_;         // the model as it is, where its lag was held
   std::optional<Standing> before_mass_;  // where no cause that moves masses was in the model
   std::size_t steps_before_mass_ = 0;
   SearchResult out_;

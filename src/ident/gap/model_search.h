@@ -39,7 +39,7 @@ struct SearchResult {
 
 struct SearchOptions {
   std::vector<std::string> exclude;
-  int most_causes = 3;  ///< in the vehicle; how its sensor is mounted comes on top
+  int most_causes;  ///< in the vehicle; how its sensor is mounted comes on top
   std::function<void(double, const std::string&)> progress;
 };
 

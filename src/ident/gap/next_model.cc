@@ -28,9 +28,10 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
     if (c.name == "payload.m") c.start = std::max(c.start, 1e-3 * at[param::m]), c.positive = true;
     if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
         d.name.substr(9) == c.name.substr(7)) {
-      const double mass = std::max(problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
-                                       std::abs(step[cause.directions[0]]),
-                                   1e-3 * at[param::m]);
+      const double mass = std::max(
+          within_limit("payload.m", problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
+                                        std::abs(step[cause.directions[0]])),
+          1e-3 * at[param::m]);
       c.start = std::clamp(moved * at[param::m] / mass, -reach, reach);
     }
   }

@@ -40,9 +40,10 @@ std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
 
 // The bench value that a flight without causes contradicts, if its being wrong was not among those tried.
 const Parameter* contradicted_untried(const SearchResult& search, const std::vector<Parameter>& fitted) {
-  const Parameter* p = contradicted(fitted, {});
-  const auto is_it = [&](const Candidate& c) { return c.name == "parameter:" + p->name; };
-  return p && std::ranges::none_of(search.problem.candidates, is_it) ? p : nullptr;
+  return contradicted(fitted, [&](const std::string& wrong) {
+    return std::ranges::find(search.problem.candidates, wrong, &Candidate::name) !=
+           search.problem.candidates.end();
+  });
 }
 
 // Where no cause was found: what still says that something is there.
@@ -125,7 +126,13 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
   if (weightless_payload(search, fitted) && std::ranges::find(others, "cg_offset") == others.end())
     others.emplace_back("cg_offset");
   const std::string found = fmt::format("{}", fmt::join(out.effects, " and "));
-  if (others.empty()) {
+  if (of_vehicle(out.effects) > kMostNames) {
+    out.sentence = fmt::format(
+        "A gap is there that only {} together explain: so many would fit almost anything, and each needs a "
+        "bench test of its own.",
+        found);
+    out.confused_with = std::exchange(out.effects, {});
+  } else if (others.empty()) {
     out.status = "identified";
     out.sentence = fmt::format("The gap is explained by {}.", found);
   } else if (of_vehicle(out.effects) + of_vehicle(others) > kMostNames) {

@@ -1,4 +1,4 @@
-// A scan over omega_m, then the full fit from the best.
+// A scan over omega_m, then the full fit from the best; and what other causes gain where the lag is held.
 #include "ident/gap/wrong_lag.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPulledFar = 5.0;  // standard deviations
 constexpr double kAsStated = 3.0;
+constexpr double kSeen = 100.0;     // a cause that gains less is no reason to hold the lag
 constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
 constexpr double kSlowest = 2.0;    // rad/s: below it the commands no longer move the model's rotors
 constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
@@ -109,7 +110,7 @@ bool shows_more(const FlightRecord& record, const Standing& held, const Standing
     const std::vector<int> there = places_of({cause}, at_hand.problem);
     if (is_lag(cause) || there.empty()) continue;
     const Further with = further(held, {}, static_cast<int>(c)), without = further(at_hand, {}, there[0]);
-    if (with.possible && with.gain - without.gain > costs) return true;
+    if (with.possible && with.gain > kSeen && with.gain - without.gain > costs) return true;
   }
   return false;
 }
