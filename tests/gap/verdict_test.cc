@@ -238,6 +238,18 @@ TEST(Verdict, APayloadAndAShiftedCentreOfGravityAtOnceAreNoAnswer) {
   EXPECT_EQ(c.judged().status, "unknown");
 }
 
+TEST(Verdict, FourCausesInTheVehicleAreNoAnswerThoughNothingElseExplainsIt) {
+  Case c({"rotor_drag", "cg_offset", "gyroscopic", "battery_sag", "imu_bias"},
+         {"rotor_drag", "cg_offset", "gyroscopic", "imu_bias"});
+  c.weighs({0, 1, 2, 4}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.best.adopted.push_back({"battery_sag"});
+  c.search.sets = {{{0, 1, 2, 3, 4}, 0.0, 1.0}};
+  const Judged many = c.judged();
+  EXPECT_EQ(many.status, "unknown");
+  EXPECT_EQ(many.confused_with.size(), 5U);
+}
+
 TEST(Verdict, HowTheSensorIsMountedIsNamedOnTopOfThree) {
   Case c({"rotor_drag", "wind", "ground_effect", "imu_bias", "imu_lever_arm"},
          {"wind", "ground_effect", "imu_bias"});
@@ -256,8 +268,11 @@ TEST(Verdict, WithoutACauseAContradictedBenchValueThatWasNotTriedIsAGap) {
   Parameter kT;
   kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
   kT.pull = 6.0, kT.from_flight = 0.9;
-  c.fitted = {kT};
-  EXPECT_EQ(c.judged().status, "none");  // tried, and it gains too little
+  Parameter worse = kT;
+  worse.name = "km", worse.pull = 9.0;
+  c.search.problem.candidates.push_back({"parameter:km"});
+  c.fitted = {worse, kT};
+  EXPECT_EQ(c.judged().status, "none");  // both were tried, and gain too little
   c.search.problem.candidates[0].name = "parameter:m";
   const Judged seen = c.judged();
   EXPECT_EQ(seen.status, "unknown");

@@ -7,7 +7,7 @@
 
 #include "ident/core/result.h"
 #include "ident/gap/generic_rival.h"
-#include "ident/gap/model_search.h"
+#include "ident/gap/search_result.h"
 
 namespace ident {
 

@@ -2,13 +2,11 @@
 #include "ident/gap/model_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "ident/core/error.h"
-#include "ident/estimators/statistics.h"
 #include "ident/gap/next_cause.h"
 #include "ident/gap/wrong_lag.h"
 
@@ -27,50 +25,6 @@ constexpr double kHardly = 0.3;
 constexpr int kExchanges = 2;
 // And one of two goes if they are no more probable than this with it.
 constexpr double kAlmostNever = 0.03;
-
-}  // namespace
-
-std::string described(const Candidate& c) {
-  return c.rotor < 0 ? c.name : c.name + " (rotor " + std::to_string(c.rotor + 1) + ")";
-}
-
-double SearchResult::probability_of(const std::string& name) const {
-  double sum = 0;
-  for (const WeighedSet& set : sets)
-    if (std::ranges::any_of(
-            set.members, [&](int m) { return problem.candidates[static_cast<std::size_t>(m)].name == name; }))
-      sum += set.probability;
-  return std::min(sum, 1.0);
-}
-
-double SearchResult::explained() const {
-  double sum = 0;
-  for (const SearchStep& cause : alone) sum += cause.gain;
-  return sum;
-}
-
-double SearchResult::scatter_of(const Candidate& adopted) const {
-  for (const Candidate& c : problem.candidates)
-    if (same(c, adopted)) return own_stretch(form, c);
-  return 1.0;
-}
-
-// A block of B tells the value with a variance of B / (information of all), and the gain is value^2 times
-// that information.
-double SearchResult::change_of(const Candidate& adopted) const {
-  const auto step = std::ranges::find(alone, described(adopted), &SearchStep::name);
-  if (step == alone.end() || !(step->gain > 0)) return 0.0;
-  const double scatter = scatter_of(adopted), gain = step->gain * scatter;
-  return std::sqrt((scatter - 1) * static_cast<double>(form.scores.cols()) / gain);
-}
-
-double SearchResult::usual_scatter() const {
-  std::vector<double> all;
-  for (const Candidate& c : problem.candidates) all.push_back(own_stretch(form, c));
-  return all.empty() ? 1.0 : median(all);
-}
-
-namespace {
 
 // One search: adds causes step by step, and exchanges them where their weights speak against them.
 class Search {

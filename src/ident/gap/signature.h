@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ident/core/result.h"
-#include "ident/gap/model_search.h"
+#include "ident/gap/search_result.h"
 
 namespace ident {
 

@@ -7,7 +7,7 @@
 #include "ident/estimators/flight_prediction.h"
 #include "ident/gap/bursts.h"
 #include "ident/gap/generic_rival.h"
-#include "ident/gap/model_search.h"
+#include "ident/gap/search_result.h"
 #include "ident/gap/spectral_line.h"
 
 namespace ident {

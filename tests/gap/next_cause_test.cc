@@ -1,0 +1,53 @@
+// Which cause is looked at next, on quadratic forms made by hand.
+#include "ident/gap/next_cause.h"
+
+#include <gtest/gtest.h>
+
+#include "support/standing_by_hand.h"
+
+namespace ident {
+namespace {
+
+const auto kAny = [](int) { return false; };
+
+// A battery that by the form falls faster than any does, and a bias that passes.
+Standing a_battery_and_a_bias(double information) {
+  Standing at =
+      standing_by_hand({"m", "battery_sag.rate", "imu_bias.ax"}, Eigen::VectorXd{{1.0, information, 1e4}},
+                       Eigen::VectorXd{{0.0, 0.03, 0.1}});
+  at.problem.candidates = {{"battery_sag", {1}}, {"imu_bias", {2}}};
+  return at;
+}
+
+TEST(NextCause, OneBeyondItsRangeIsTriedWhereItGainsFarMoreThanAnyOther) {
+  const Standing strong = a_battery_and_a_bias(1e8);  // gains 90000, the bias 100
+  const NextCause next = next_cause(strong, kAny, {});
+  EXPECT_EQ(next.uneven.candidate, 0);
+  EXPECT_TRUE(next.uneven.beyond);
+  EXPECT_EQ(next.best.candidate, 1);
+  EXPECT_FALSE(further(strong, {}, 0).passes());
+  EXPECT_EQ(next_cause(a_battery_and_a_bias(1e6), kAny, {}).uneven.candidate, 1);
+}
+
+TEST(NextCause, WhatWasTriedMayStillBeFoundAndWhatIsBarredMayNot) {
+  const Standing at = a_battery_and_a_bias(1e8);
+  const NextCause tried = next_cause(at, kAny, {at.problem.candidates[0], at.problem.candidates[1]});
+  EXPECT_EQ(tried.uneven.candidate, -1);
+  EXPECT_EQ(tried.best.candidate, 1);
+  const NextCause barred = next_cause(at, [](int c) { return c == 1; }, {});
+  EXPECT_EQ(barred.best.candidate, -1);
+  EXPECT_EQ(barred.uneven.candidate, 0);
+}
+
+TEST(NextCause, OfThoseThatPassTheOneWithMostEvidenceIsBest) {
+  Standing at =
+      standing_by_hand({"m", "imu_bias.ax", "imu_lever_arm.x"}, Eigen::VectorXd{{1.0, 1e4, 2e4}},
+                       Eigen::VectorXd{{0.0, 0.1, 0.1}});
+  at.problem.candidates = {{"imu_bias", {1}}, {"imu_lever_arm", {2}}};
+  EXPECT_EQ(next_cause(at, kAny, {}).best.candidate, 1);
+  at.have = {1};
+  EXPECT_EQ(next_cause(at, kAny, {}).best.candidate, 0);
+}
+
+}  // namespace
+}  // namespace ident
