@@ -12,9 +12,8 @@ const auto kAny = [](int) { return false; };
 
 // A battery that by the form falls faster than any does, and a bias that passes.
 Standing a_battery_and_a_bias(double information) {
-  Standing at =
-      standing_by_hand({"m", "battery_sag.rate", "imu_bias.ax"}, Eigen::VectorXd{{1.0, information, 1e4}},
-                       Eigen::VectorXd{{0.0, 0.03, 0.1}});
+  Standing at = standing_by_hand({"m", "battery_sag.rate", "imu_bias.ax"},
+                                 Eigen::VectorXd{{1.0, information, 1e4}}, Eigen::VectorXd{{0.0, 0.03, 0.1}});
   at.problem.candidates = {{"battery_sag", {1}}, {"imu_bias", {2}}};
   return at;
 }
@@ -40,9 +39,8 @@ TEST(NextCause, WhatWasTriedMayStillBeFoundAndWhatIsBarredMayNot) {
 }
 
 TEST(NextCause, OfThoseThatPassTheOneWithMostEvidenceIsBest) {
-  Standing at =
-      standing_by_hand({"m", "imu_bias.ax", "imu_lever_arm.x"}, Eigen::VectorXd{{1.0, 1e4, 2e4}},
-                       Eigen::VectorXd{{0.0, 0.1, 0.1}});
+  Standing at = standing_by_hand({"m", "imu_bias.ax", "imu_lever_arm.x"}, Eigen::VectorXd{{1.0, 1e4, 2e4}},
+                                 Eigen::VectorXd{{0.0, 0.1, 0.1}});
   at.problem.candidates = {{"imu_bias", {1}}, {"imu_lever_arm", {2}}};
   EXPECT_EQ(next_cause(at, kAny, {}).best.candidate, 1);
   at.have = {1};

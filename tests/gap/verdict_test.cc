@@ -76,7 +76,7 @@ TEST(Verdict, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIsExplai
   EXPECT_EQ(left.status, "unknown");
   EXPECT_TRUE(left.effects.empty());
   EXPECT_EQ(left.confused_with, Names{"rotor_drag"});
-  Case exact({"cg_offset"}, {"cg_offset"});  // geometry leaves nothing
+  Case exact({"rotor_tilt"}, {"rotor_tilt"});  // geometry leaves nothing
   exact.weighs({0}, 1.0);
   exact.rival.gain[0] = 55.0;
   EXPECT_EQ(exact.judged().status, "identified");
@@ -102,7 +102,7 @@ TEST(Verdict, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidSo) {
 }
 
 TEST(Verdict, AContradictedBenchValueMakesItUnknownUnlessItIsTheCause) {
-  Case c({"cg_offset", "parameter:kT"}, {"cg_offset"});
+  Case c({"rotor_tilt", "parameter:kT"}, {"rotor_tilt"});
   c.weighs({0}, 1.0);
   Parameter kT;
   kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
@@ -116,12 +116,17 @@ TEST(Verdict, AContradictedBenchValueMakesItUnknownUnlessItIsTheCause) {
   EXPECT_EQ(c.judged().status, "identified");
 }
 
-TEST(Verdict, TwoCausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
+TEST(Verdict, CausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
   Case c({"cg_offset", "products_of_inertia", "payload"}, {"cg_offset", "products_of_inertia"});
   c.weighs({0, 1}, 1.0);
   EXPECT_EQ(c.judged().status, "identified");
   c.search.problem.candidates.pop_back();
   EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted.pop_back();
+  c.search.sets = {{{0}, 0.0, 1.0}};
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted[0].name = c.search.problem.candidates[0].name = "parameter:Jxx";
+  EXPECT_EQ(c.judged().status, "identified");
 }
 
 // Ten parts of a flight that disagree on the size of the first cause, and agree on that of the others.
@@ -138,13 +143,13 @@ void disagrees(Case& c) {
 }
 
 TEST(Verdict, AConstantOfTheVehicleThatChangesInFlightIsNotTheCause) {
-  Case geometry({"cg_offset", "rotor_drag", "imu_bias"}, {"cg_offset"});
+  Case geometry({"rotor_tilt", "rotor_drag", "imu_bias"}, {"rotor_tilt"});
   disagrees(geometry);
   EXPECT_EQ(geometry.judged().status, "unknown");
-  Case air({"rotor_drag", "cg_offset", "imu_bias"}, {"rotor_drag"});  // an equation that air follows nearly
+  Case air({"rotor_drag", "rotor_tilt", "imu_bias"}, {"rotor_drag"});  // an equation that air follows nearly
   disagrees(air);
   EXPECT_EQ(air.judged().status, "identified");
-  Case strong({"cg_offset", "rotor_drag", "imu_bias"}, {"cg_offset"});
+  Case strong({"rotor_tilt", "rotor_drag", "imu_bias"}, {"rotor_tilt"});
   disagrees(strong);
   strong.search.alone[0].gain = 1e5;  // it changes by a hundredth of itself
   EXPECT_EQ(strong.judged().status, "identified");
@@ -202,7 +207,7 @@ TEST(Verdict, FlappingIsNotNamedWhereTheDragThatComesWithItWasNotTried) {
 }
 
 TEST(Verdict, ACauseOfTheDriveMayLeaveAThirdOfWhatItGainsAndOtherCausesLendItNothing) {
-  Case c({"battery_sag", "cg_offset"}, {"battery_sag"});
+  Case c({"battery_sag", "rotor_tilt"}, {"battery_sag"});
   c.weighs({0}, 1.0);
   c.rival.gain[2] = 300.0;
   EXPECT_EQ(c.judged().status, "identified");
@@ -210,8 +215,8 @@ TEST(Verdict, ACauseOfTheDriveMayLeaveAThirdOfWhatItGainsAndOtherCausesLendItNot
   EXPECT_EQ(c.judged().status, "unknown");
   c.rival.gain = {0, 0, 400.0, 0, 0, 0};
   EXPECT_EQ(c.judged().status, "unknown");
-  c.search.best.adopted.push_back({"cg_offset"});
-  c.search.alone.push_back({"cg_offset", 500.0});
+  c.search.best.adopted.push_back({"rotor_tilt"});
+  c.search.alone.push_back({"rotor_tilt", 500.0});
   c.search.sets = {{{0, 1}, 0.0, 1.0}};
   EXPECT_EQ(c.judged().status, "unknown");
   c.search.alone[0].gain = 1200.0;
@@ -239,8 +244,8 @@ TEST(Verdict, APayloadAndAShiftedCentreOfGravityAtOnceAreNoAnswer) {
 }
 
 TEST(Verdict, FourCausesInTheVehicleAreNoAnswerThoughNothingElseExplainsIt) {
-  Case c({"rotor_drag", "cg_offset", "gyroscopic", "battery_sag", "imu_bias"},
-         {"rotor_drag", "cg_offset", "gyroscopic", "imu_bias"});
+  Case c({"rotor_drag", "rotor_tilt", "gyroscopic", "battery_sag", "imu_bias"},
+         {"rotor_drag", "rotor_tilt", "gyroscopic", "imu_bias"});
   c.weighs({0, 1, 2, 4}, 1.0);
   EXPECT_EQ(c.judged().status, "identified");
   c.search.best.adopted.push_back({"battery_sag"});

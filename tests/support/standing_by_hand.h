@@ -11,7 +11,7 @@ namespace ident {
 // One base constant, then causes over unknowns that know nothing of each other, each with the information `S`
 // and its minimum at `at`.
 inline Standing standing_by_hand(const std::vector<std::string>& names, const Eigen::VectorXd& S,
-                  const Eigen::VectorXd& at) {
+                                 const Eigen::VectorXd& at) {
   Standing out;
   for (const std::string& name : names) out.problem.constants.push_back({.name = name, .start = 0.0});
   out.problem.base = 1;

@@ -40,10 +40,13 @@ bool is_candidate(const SearchResult& search, const std::string& name) {
   return std::ranges::any_of(search.problem.candidates, [&](const Candidate& c) { return c.name == name; });
 }
 
-// Two causes that move masses are what one thing bolted on would do. With the payload in the catalogue it
-// stands beside them there.
+// A shifted centre of gravity, or two causes that move masses, are what one thing bolted on would do. With
+// the payload in the catalogue it stands beside them there.
 bool may_be_one_payload(const SearchResult& search) {
-  return !is_candidate(search, "payload") && std::ranges::count_if(search.best.adopted, moves_mass) >= 2;
+  const std::vector<Candidate>& found = search.best.adopted;
+  return !is_candidate(search, "payload") &&
+         (std::ranges::count_if(found, moves_mass) >= 2 ||
+          std::ranges::any_of(found, [](const Candidate& c) { return c.name == "cg_offset"; }));
 }
 
 bool is_one_of(const Candidate& cause, std::initializer_list<const char*> names) {
@@ -186,8 +189,7 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
   if (flaps_without_drag(search))
     return "a rotor that flaps drags as well, and that was not among the causes tried";
   if (may_be_one_payload(search))
-    return "all of that at once is what one thing bolted on would do, and a payload was not among the "
-           "causes tried";
+    return "that is what one thing bolted on would do, and a payload was not among the causes tried";
   return {};
 }
 

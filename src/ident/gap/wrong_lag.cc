@@ -110,7 +110,7 @@ bool shows_more(const FlightRecord& record, const Standing& held, const Standing
     const std::vector<int> there = places_of({cause}, at_hand.problem);
     if (is_lag(cause) || there.empty()) continue;
     const Further with = further(held, {}, static_cast<int>(c)), without = further(at_hand, {}, there[0]);
-    if (with.possible && with.gain > kSeen && with.gain - without.gain > costs) return true;
+    if ((with.possible || with.beyond) && with.gain > kSeen && with.gain - without.gain > costs) return true;
   }
   return false;
 }
