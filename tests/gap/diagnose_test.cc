@@ -24,6 +24,11 @@ FlightLog flight_of(const Vehicle& vehicle, std::uint64_t seed) {
 
 Vehicle published() { return read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml"); }
 
+// Bench values to that share of themselves.
+void known_to(double share, std::initializer_list<const char*> names, Vehicle& model) {
+  for (const char* name : names) model.parameters.at(name).std = share * model.value(name);
+}
+
 nlohmann::ordered_json verdict_of(const Vehicle& model, const FlightLog& log) {
   const std::vector<FlightLog> logs{log};
   return diagnose_gap(model, logs).result.extra["verdict"];
@@ -100,8 +105,7 @@ TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
   const FlightLog log = flight_of(model, 6);
   const double truth = model.value("omega_m");
   model.parameters.at("omega_m") = {10 * truth, 0.5 * truth};
-  for (const char* name : {"zeta_m", "km", "kT", "kQ", "Jxx", "Jyy", "Jzz"})
-    model.parameters.at(name).std = 0.1 * model.value(name);
+  known_to(0.1, {"zeta_m", "km", "kT", "kQ", "Jxx", "Jyy", "Jzz"}, model);
   const std::vector<FlightLog> logs{log};
   const Diagnosis found = diagnose_gap(model, logs);
   EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"parameter:omega_m"}))
@@ -116,9 +120,8 @@ TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeCo
   const FlightLog log = flight_of(model, 8);
   const double truth = model.value("zeta_m");
   model.parameters.at("zeta_m") = {0.6 * truth, 0.012 * truth};
-  model.parameters.at("omega_m").std = 0.1 * model.value("omega_m");
-  for (const char* name : {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"})
-    model.parameters.at(name).std = 0.05 * model.value(name);
+  known_to(0.1, {"omega_m"}, model);
+  known_to(0.05, {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"}, model);
   const std::vector<FlightLog> logs{log};
   const Diagnosis found = diagnose_gap(model, logs);
   EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"parameter:zeta_m"}))
@@ -130,13 +133,11 @@ TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeCo
   EXPECT_EQ(without["status"], "unknown") << without;
 }
 
-// A battery nearly empty makes motors seem slow beyond all physics at first sight.
-TEST(Diagnosis, AStrongBatterySagIsNotASlowMotorToo) {
+// From the fit without it the first step ends beyond what any battery does.
+TEST(Diagnosis, AStrongBatterySagIsFoundThoughItsFirstStepIsBeyondPhysics) {
   Vehicle model = published();
-  model.parameters.at("omega_m").std = 0.1 * model.value("omega_m");
-  model.parameters.at("zeta_m").std = 0.1 * model.value("zeta_m");
-  for (const char* name : {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"})
-    model.parameters.at(name).std = 0.05 * model.value(name);
+  known_to(0.1, {"omega_m", "zeta_m"}, model);
+  known_to(0.05, {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"}, model);
   Vehicle truth = model;
   truth.parameters["battery_sag.rate"] = {0.008, {}};
   const std::vector<FlightLog> logs{flight_of(truth, 9)};

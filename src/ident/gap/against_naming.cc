@@ -58,10 +58,10 @@ bool is_of_motors(const Candidate& cause) {
   return is_one_of(
       cause, {"motor_delay", "motor_asymmetry", "parameter:omega_m", "parameter:zeta_m", "parameter:km"});
 }
+bool is_of_drive(const std::string& cause) { return cause == "battery_sag" || cause == "thrust_curve"; }
 bool is_loose(const Candidate& cause) {
   const EffectEntry* effect = find_effect(cause.name);
-  return is_one_of(cause, {"battery_sag", "thrust_curve"}) ||
-         (effect && (effect->info.touches & (kTouchFlow | kTouchHeight)) != 0);
+  return is_of_drive(cause.name) || (effect && (effect->info.touches & (kTouchFlow | kTouchHeight)) != 0);
 }
 
 // The cause found whose value changes from one part of the flight to the next though it should not: another
@@ -100,8 +100,7 @@ bool is_predicted(const SearchResult& search, const Rival& rival) {
   const double allowed = allowed_rival(search);
   double drive = allowed;
   for (const SearchStep& cause : search.alone)
-    if (cause.name == "battery_sag" || cause.name == "thrust_curve")
-      drive = std::max(drive, kRivalShareOfDrive * cause.gain);
+    if (is_of_drive(cause.name)) drive = std::max(drive, kRivalShareOfDrive * cause.gain);
   return rival.total() > drive || rival.total() - of_drive(rival) > allowed;
 }
 
@@ -133,11 +132,11 @@ std::string ill_twice(const SearchResult& search) {
 
 // The motors' lag counts once.
 std::ptrdiff_t wrong_values(const SearchResult& search) {
-  return std::ranges::count_if(search.best.adopted, [](const Candidate& c) { return c.parameter >= 0; }) -
-         (is_found(search, "parameter:omega_m") && is_found(search, "parameter:zeta_m"));
+  const auto& found = search.best.adopted;
+  const auto lags = std::ranges::count_if(found, [](const Candidate& c) { return is_lag(c.name); });
+  return std::ranges::count_if(found, [](const Candidate& c) { return c.parameter >= 0; }) -
+         std::max<std::ptrdiff_t>(lags - 1, 0);
 }
-
-bool is_lag(const std::string& name) { return name == "parameter:omega_m" || name == "parameter:zeta_m"; }
 
 }  // namespace
 
@@ -165,9 +164,10 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
     return "most of the gap remains with it";
   if (is_predicted(search, rival))
     return "a plain regression on the flight predicts what it leaves, most in " + rival.strongest();
-  const auto found = [&](const std::string& wrong) {  // omega_m and zeta_m are one thing, the motors' lag
-    return is_found(search, wrong) ||
-           (is_lag(wrong) && (is_found(search, "parameter:omega_m") || is_found(search, "parameter:zeta_m")));
+  const auto found = [&](const std::string& wrong) {
+    return std::ranges::any_of(search.best.adopted, [&](const Candidate& c) {
+      return c.name == wrong || (is_lag(wrong) && is_lag(c.name));
+    });
   };
   if (const Parameter* p = contradicted(fitted, found))
     return fmt::format(

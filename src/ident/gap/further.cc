@@ -59,6 +59,8 @@ bool is_of_mounting(const std::string& cause) {
   return cause == "imu_bias" || cause == "imu_lever_arm" || cause == "imu_misalignment";
 }
 
+bool is_lag(const std::string& cause) { return cause == "parameter:omega_m" || cause == "parameter:zeta_m"; }
+
 std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle& vehicle,
                                       const std::vector<std::string>& exclude, const Standing& before,
                                       const std::vector<Candidate>& instead_of,

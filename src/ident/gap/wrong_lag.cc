@@ -59,10 +59,6 @@ double misfit(const FlightRecord& record, const FittedModel& model, const NoiseM
   return smoother.linearize(model.fit.u).cost;
 }
 
-bool is_lag(const Candidate& cause) {
-  return cause.name == "parameter:omega_m" || cause.name == "parameter:zeta_m";
-}
-
 }  // namespace
 
 bool lag_pulled_far(const FittedModel& model) {
@@ -108,7 +104,7 @@ bool shows_more(const FlightRecord& record, const Standing& held, const Standing
   for (std::size_t c = 0; c < held.problem.candidates.size(); ++c) {
     const Candidate& cause = held.problem.candidates[c];
     const std::vector<int> there = places_of({cause}, at_hand.problem);
-    if (is_lag(cause) || there.empty()) continue;
+    if (is_lag(cause.name) || there.empty()) continue;
     const Further with = further(held, {}, static_cast<int>(c)), without = further(at_hand, {}, there[0]);
     if ((with.possible || with.beyond) && with.gain > kSeen && with.gain - without.gain > costs) return true;
   }

@@ -1,0 +1,169 @@
+// The rules against naming a cause, one by one, on searches made by hand.
+#include <gtest/gtest.h>
+
+#include "support/verdict_case.h"
+
+namespace ident {
+namespace {
+
+using Names = std::vector<std::string>;
+using Case = VerdictCase;
+
+TEST(AgainstNaming, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIsExplained) {
+  Case c({"rotor_drag"}, {"rotor_drag"});
+  c.weighs({0}, 1.0);
+  c.rival.gain[0] = 100.0;  // a tenth of what the cause explains
+  EXPECT_EQ(c.judged().status, "identified");
+  c.rival.gain[0] = 200.0;
+  const Judged left = c.judged();
+  EXPECT_EQ(left.status, "unknown");
+  EXPECT_TRUE(left.effects.empty());
+  EXPECT_EQ(left.confused_with, Names{"rotor_drag"});
+  Case exact({"rotor_tilt"}, {"rotor_tilt"});  // geometry leaves nothing
+  exact.weighs({0}, 1.0);
+  exact.rival.gain[0] = 55.0;
+  EXPECT_EQ(exact.judged().status, "identified");
+  exact.rival.gain[0] = 65.0;
+  EXPECT_EQ(exact.judged().status, "unknown");
+  exact.rival.gain[0] = 50.0;
+  exact.search.alone[0].gain = 40.0;  // the regression sees more than the cause does
+  EXPECT_EQ(exact.judged().status, "unknown");
+}
+
+TEST(AgainstNaming, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidSo) {
+  Case c({"rotor_drag"}, {"rotor_drag"});
+  c.weighs({0}, 1.0);
+  c.closes({0.5, 0.7}, 0.6);
+  const Judged part = c.judged();
+  EXPECT_EQ(part.status, "identified");
+  EXPECT_NEAR(part.remaining, 0.4, 1e-12);
+  EXPECT_NE(part.sentence.find("40 %"), std::string::npos) << part.sentence;
+  c.closes({0.1, 0.9}, 0.4);  // gusts may hide it
+  EXPECT_EQ(c.judged().status, "identified");
+  c.closes({0.1, 0.6}, 0.4);
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(AgainstNaming, AContradictedBenchValueMakesItUnknownUnlessItIsTheCause) {
+  Case c({"rotor_tilt", "parameter:kT"}, {"rotor_tilt"});
+  c.weighs({0}, 1.0);
+  Parameter kT;
+  kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
+  kT.pull = 6.0, kT.from_flight = 0.9;
+  c.fitted = {kT};
+  const Judged against = c.judged();
+  EXPECT_EQ(against.status, "unknown");
+  EXPECT_NE(against.sentence.find("kT"), std::string::npos) << against.sentence;
+  c.search.best.adopted.push_back({"parameter:kT"});
+  c.search.sets = {{{0, 1}, 0.0, 1.0}};
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
+TEST(AgainstNaming, CausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
+  Case c({"cg_offset", "products_of_inertia", "payload"}, {"cg_offset", "products_of_inertia"});
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.problem.candidates.pop_back();
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted.pop_back();
+  c.search.sets = {{{0}, 0.0, 1.0}};
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted[0].name = c.search.problem.candidates[0].name = "parameter:Jxx";
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
+// Ten parts of a flight that disagree on the size of the first cause, and agree on that of the others.
+void disagrees(Case& c) {
+  c.search.alone[0].gain = 100;
+  c.search.form.scores = Eigen::MatrixXd::Zero(3, 10);
+  for (int part = 0; part < 10; ++part) {
+    const double sign = part % 2 == 0 ? 1.0 : -1.0;
+    c.search.form.scores.col(part) = sign * Eigen::Vector3d(4.0, 1.0, 1.0);
+    c.search.form.information.push_back(Eigen::Matrix3d::Identity());
+  }
+  for (int i = 0; i < 3; ++i) c.search.problem.candidates[static_cast<std::size_t>(i)].directions = {i};
+  c.weighs({0}, 1.0);
+}
+
+TEST(AgainstNaming, AConstantOfTheVehicleThatChangesInFlightIsNotTheCause) {
+  Case geometry({"rotor_tilt", "rotor_drag", "imu_bias"}, {"rotor_tilt"});
+  disagrees(geometry);
+  EXPECT_EQ(geometry.judged().status, "unknown");
+  Case air({"rotor_drag", "rotor_tilt", "imu_bias"}, {"rotor_drag"});  // an equation that air follows nearly
+  disagrees(air);
+  EXPECT_EQ(air.judged().status, "identified");
+  Case strong({"rotor_tilt", "rotor_drag", "imu_bias"}, {"rotor_tilt"});
+  disagrees(strong);
+  strong.search.alone[0].gain = 1e5;  // it changes by a hundredth of itself
+  EXPECT_EQ(strong.judged().status, "identified");
+  Case motor({"motor_asymmetry", "rotor_drag", "imu_bias"}, {"motor_asymmetry"});
+  disagrees(motor);  // by less than half of itself: motors are what they are only nearly
+  EXPECT_EQ(motor.judged().status, "identified");
+  motor.search.alone[0].gain = 20;
+  EXPECT_EQ(motor.judged().status, "unknown");
+  geometry.search.form.scores.bottomRows(2) *= 4;  // what the colour of the residuals does to all
+  EXPECT_EQ(geometry.judged().status, "identified");
+}
+
+TEST(AgainstNaming, FlappingIsNotNamedWhereTheDragThatComesWithItWasNotTried) {
+  Case c({"blade_flapping", "rotor_drag"}, {"blade_flapping"});
+  c.weighs({0}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.problem.candidates.pop_back();
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(AgainstNaming, ACauseOfTheDriveMayLeaveAThirdOfWhatItGainsAndOtherCausesLendItNothing) {
+  Case c({"battery_sag", "rotor_tilt"}, {"battery_sag"});
+  c.weighs({0}, 1.0);
+  c.rival.gain[2] = 300.0;
+  EXPECT_EQ(c.judged().status, "identified");
+  std::swap(c.rival.gain[0], c.rival.gain[2]);  // a thrust of another form pushes nothing forward
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.rival.gain = {0, 0, 400.0, 0, 0, 0};
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.best.adopted.push_back({"rotor_tilt"});
+  c.search.alone.push_back({"rotor_tilt", 500.0});
+  c.search.sets = {{{0, 1}, 0.0, 1.0}};
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.alone[0].gain = 1200.0;
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
+TEST(AgainstNaming, ThreeWrongBenchValuesAtOnceAreNoAnswer) {
+  Case c({"parameter:m", "parameter:kT", "parameter:Jxx"}, {"parameter:m", "parameter:kT"});
+  for (int i = 0; i < 2; ++i) c.search.best.adopted[static_cast<std::size_t>(i)].parameter = i;
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  Candidate third{"parameter:Jxx"};
+  third.parameter = 2;
+  c.search.best.adopted.push_back(third);
+  c.search.sets = {{{0, 1, 2}, 0.0, 1.0}};
+  const Judged many = c.judged();
+  EXPECT_EQ(many.status, "unknown");
+  EXPECT_EQ(many.confused_with.size(), 3U);
+}
+
+TEST(AgainstNaming, APayloadAndAShiftedCentreOfGravityAtOnceAreNoAnswer) {
+  Case c({"payload", "cg_offset"}, {"payload", "cg_offset"});
+  c.weighs({0, 1}, 1.0);
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(AgainstNaming, TheSameIllOfTwoRotorsIsNotNamed) {
+  Case c({"rotor_mismatch", "rotor_mismatch", "rotor_tilt"}, {"rotor_mismatch"});
+  c.search.best.adopted[0].rotor = 0;
+  c.weighs({0}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  Candidate other{"rotor_mismatch"};
+  other.rotor = 2;
+  c.search.best.adopted.push_back(other);
+  const Judged twice = c.judged();
+  EXPECT_EQ(twice.status, "unknown");
+  EXPECT_EQ(twice.confused_with, Names{"rotor_mismatch"});
+  c.search.best.adopted[1].name = "rotor_tilt";
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
+}  // namespace
+}  // namespace ident

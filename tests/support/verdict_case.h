@@ -1,0 +1,35 @@
+// What a search found, made by hand, and the verdict on it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/gap/verdict.h"
+
+namespace ident {
+
+// What a search found, all else as it is where a cause explains everything.
+struct VerdictCase {
+  SearchResult search;
+  GapClosed gap;
+  Rival rival;
+  std::vector<SpectralLine> lines;
+  std::vector<Burst> jumps;
+  std::vector<Parameter> fitted;
+
+  VerdictCase(const std::vector<std::string>& candidates, const std::vector<std::string>& found) {
+    for (const std::string& name : candidates) search.problem.candidates.push_back({name});
+    for (const std::string& name : found) {
+      search.best.adopted.push_back({name});
+      search.alone.push_back({name, 1000.0});
+    }
+    closes({0.9, 1.0}, 0.97);
+  }
+  void closes(std::array<double, 2> ci95, double closed) { gap = {closed, ci95, 10.0, 1.1, 1.0}; }
+  void weighs(const std::vector<int>& members, double probability) {
+    search.sets.push_back({members, 0.0, probability});
+  }
+  Judged judged() const { return judge(search, gap, rival, lines, jumps, fitted); }
+};
+
+}  // namespace ident
