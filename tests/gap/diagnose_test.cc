@@ -113,8 +113,7 @@ TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
   EXPECT_NEAR(found.adopted.parameters.at("omega_m").value, truth, 0.1 * truth);
 }
 
-// Confidently wrong damping moves omega_m far in the same fit: it is not looked at with the lag held, where
-// no cause is seen any more.
+// Damping stated wrongly and with confidence, beside a loose omega_m that the same fit may move.
 TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeContradicted) {
   Vehicle model = published();
   const FlightLog log = flight_of(model, 8);
