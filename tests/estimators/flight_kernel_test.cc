@@ -220,6 +220,40 @@ TEST(FlightKernel, SlopesOfTheStartHoldWithEveryEffect) {
   }
 }
 
+// With each effect in turn: its own constants, and those that it makes something of.
+TEST(FlightKernel, SlopesOfTheConstantsHoldWithEveryEffect) {
+  Setting s;
+  for (const EffectEntry& e : catalogue()) {
+    SCOPED_TRACE(e.info.name);
+    std::vector<double> p = s.p, constants;
+    p[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] = 2e-5;
+    std::vector<std::string> own;
+    for (const ParameterInfo& info : all_parameters()) {
+      const int i = info.index - e.offset;
+      if (i < 0 || i >= static_cast<int>(e.parameters.size())) continue;
+      own.push_back(info.name);
+      p[static_cast<std::size_t>(info.index)] += 2 * e.parameters[static_cast<std::size_t>(i)].typical;
+    }
+    s.theta = Theta(p, free_constants(s.vehicle, p, own), 1, true);
+    const Eigen::VectorXd u = Eigen::VectorXd::Constant(s.theta.size(), 0.02);
+    const auto evaluated = [&](const Eigen::VectorXd& at) {
+      ChunkTask task = s.task(at, constants);
+      task.exact = true, task.huber = 1e9;
+      task.active = active_effects(constants);
+      ChunkResult r;
+      evaluate_chunk(task, r);
+      return r;
+    };
+    const ChunkResult here = evaluated(u);
+    for (int i = 0; i < s.theta.size(); ++i) {
+      const Eigen::VectorXd step = 1e-4 * Eigen::VectorXd::Unit(s.theta.size(), i);
+      const double numeric = (evaluated(u + step).cost - evaluated(u - step).cost) / 2e-4,
+                   analytic = 2 * here.g[static_cast<std::size_t>(s.record.layout.size + i)];
+      EXPECT_NEAR(analytic, numeric, 1e-3 * std::abs(numeric) + 1e-6 * here.cost) << s.theta.name(i);
+    }
+  }
+}
+
 TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   Setting s;
   // Start 3 % off everywhere; the mass keeps its scale.

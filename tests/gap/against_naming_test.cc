@@ -60,15 +60,16 @@ TEST(AgainstNaming, AContradictedBenchValueMakesItUnknownUnlessItIsTheCause) {
 }
 
 TEST(AgainstNaming, CausesThatMoveMassesAreNotNamedWhereAPayloadWasNotTried) {
-  Case c({"cg_offset", "products_of_inertia", "payload"}, {"cg_offset", "products_of_inertia"});
-  c.weighs({0, 1}, 1.0);
+  Case c({"rotor_mismatch", "cg_offset", "products_of_inertia", "payload"},
+         {"cg_offset", "products_of_inertia"});
+  c.weighs({1, 2}, 1.0);
   EXPECT_EQ(c.judged().status, "identified");
   c.search.problem.candidates.pop_back();
   EXPECT_EQ(c.judged().status, "unknown");
   c.search.best.adopted.pop_back();
-  c.search.sets = {{{0}, 0.0, 1.0}};
+  c.search.sets = {{{1}, 0.0, 1.0}};
   EXPECT_EQ(c.judged().status, "unknown");
-  c.search.best.adopted[0].name = c.search.problem.candidates[0].name = "parameter:Jxx";
+  c.search.best.adopted[0].name = c.search.problem.candidates[1].name = "parameter:Jxx";
   EXPECT_EQ(c.judged().status, "identified");
 }
 
@@ -144,9 +145,53 @@ TEST(AgainstNaming, ThreeWrongBenchValuesAtOnceAreNoAnswer) {
   EXPECT_EQ(many.confused_with.size(), 3U);
 }
 
-TEST(AgainstNaming, APayloadAndAShiftedCentreOfGravityAtOnceAreNoAnswer) {
-  Case c({"payload", "cg_offset"}, {"payload", "cg_offset"});
-  c.weighs({0, 1}, 1.0);
+TEST(AgainstNaming, APayloadBesideWhatItDoesItselfIsNoAnswer) {
+  for (const char* own : {"cg_offset", "parameter:m"}) {
+    Case c({"payload", own, "rotor_mismatch"}, {"payload", own});
+    c.weighs({0, 1}, 1.0);
+    EXPECT_EQ(c.judged().status, "unknown") << own;
+  }
+}
+
+TEST(AgainstNaming, AShiftedCentreOfGravityIsNotNamedWhereAWeakRotorWasNotTried) {
+  Case c({"payload", "cg_offset", "rotor_mismatch"}, {"cg_offset"});
+  c.weighs({1}, 1.0);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.problem.candidates.pop_back();
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(AgainstNaming, ACauseOfWhichOneChannelAsksForAnotherSizeIsNotNamed) {
+  Case c({"motor_asymmetry"}, {"motor_asymmetry"});
+  c.weighs({0}, 1.0);
+  c.search.asked = {{{"roll", 0.4, 0.07, 0.1}, {"rotor speeds", -0.05, 0.02, 0.9}}};
+  EXPECT_NEAR(std::pow(0.4 / 0.07, 2) + std::pow(0.05 / 0.02, 2), 38.9, 0.1);
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.asked[0][0].std = 0.065;
+  const Judged other = c.judged();
+  EXPECT_EQ(other.status, "unknown");
+  EXPECT_NE(other.sentence.find("roll asks"), std::string::npos) << other.sentence;
+  c.search.asked[0][0] = {"roll", 0.2, 0.03, 0.1};  // by a fifth of itself
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.asked[0][0] = {"roll", 0.4, 0.2, 0.1};  // it is rotor speeds that disagree, by little
+  c.search.asked[0][1].std = 0.005;
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.asked[0][0] = {"roll", 0.4, 0.05, 0.1};
+  c.search.best.adopted[0].name = c.search.problem.candidates[0].name =
+      "ground_effect";  // of nearly this form
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
+TEST(AgainstNaming, AWeakCauseBesideWhatSwingsOrStrikesIsNotNamed) {
+  Case c({"thrust_curve"}, {"thrust_curve"});
+  c.weighs({0}, 1.0);
+  c.jumps = {{"Mx", 0, 10, 14.0, 20.0}};
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.alone[0].gain = 50.0;
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.jumps[0].count = 2;
+  EXPECT_EQ(c.judged().status, "identified");
+  c.lines = {{"az", 7.0, 6.0, 0.04}};
   EXPECT_EQ(c.judged().status, "unknown");
 }
 

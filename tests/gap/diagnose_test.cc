@@ -209,7 +209,8 @@ TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {
   truth.parameters["payload.m"] = {0.002, {}};
   truth.parameters["payload.x"] = {0.1, {}};
   const FlightLog log = flight_of(truth, 4);
-  EXPECT_EQ(verdict_of(model, log)["effects"], nlohmann::ordered_json({"payload"}));
+  const auto first = verdict_of(model, log);
+  EXPECT_EQ(first["effects"], nlohmann::ordered_json({"payload"})) << first;
   model.parameters.at("m").std = 0.01;
   const auto verdict = verdict_of(model, log);
   std::vector<std::string> named = verdict["effects"];

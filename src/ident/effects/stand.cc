@@ -76,7 +76,7 @@ Stand::Load Stand::load(double Omega) const {
   constexpr double kFarUp = 1e3;  // m, out of ground effect
   const Vec3<double> none = Vec3<double>::Zero();
   RotorSeam<double> seam{.index = static_cast<int>(model_->rotor),
-                         .Omega_hover = model_->flight->body().Omega_hover(),
+                         .per_Omega_hover = &model_->flight->body().per_Omega_hover(),
                          .Omega = Omega,
                          .v_air_B = none,
                          .height = kFarUp,

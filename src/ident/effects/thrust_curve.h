@@ -23,7 +23,7 @@ struct ThrustCurve {
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {
-    seam.T = seam.T * (1.0 + p[0] * (seam.Omega * (1.0 / seam.Omega_hover) - 1.0));
+    seam.T = seam.T * (1.0 + p[0] * (seam.Omega * *seam.per_Omega_hover - 1.0));
   }
 };
 

@@ -33,6 +33,10 @@ class ChunkKernel {
     column_ = table<Column>(static_cast<std::size_t>(d_) + 64);
     const KernelColumns<Isa> list(task_, place_, column_);
     columns_ = list.columns, dual_packs_ = list.dual_packs, packs_ = list.packs;
+    for (auto& of_kind : analytic_)
+      for (int& i : of_kind) i = -1;
+    for (int i = 8 * dual_packs_; i < columns_; ++i)
+      if (column_[i].external >= 0) analytic_[static_cast<int>(column_[i].kind)][column_[i].axis] = i;
   }
 
   // Packs of types of their own for each instruction set, and aligned on the heap.
@@ -71,7 +75,7 @@ class ChunkKernel {
         sweep<Dual<1, Isa, float>>(pack, first), pack += 2;
       first = false;
     }
-    analytic_gradient();
+    analytic_end();
     square();
     if (task_.covariance) leverages();
   }
@@ -114,9 +118,9 @@ class ChunkKernel {
           }
           for (int k = 0; k < packs; ++k) gradient[k] += row[k] * (r * bend);
           if (first) {
-            sample_[sample] = {scale, r * bend, channel};
+            sample_[sample] = {channel};
             analytic(J_ + sample * static_cast<std::size_t>(packs_), channel,
-                     task_.t[i] - task_.t[task_.begin], run.attitude(), scale);
+                     task_.t[i] - task_.t[task_.begin], run.attitude(), scale, r * bend);
           }
           ++sample;
         });
@@ -185,33 +189,33 @@ class ChunkKernel {
   }
 
   // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world
-  // frame, and a bias that adds to the rates as shown.
+  // frame, and a bias that adds to the rates as shown. `residual`: of this sample, scaled like its row.
   template <class S>
-  void analytic(Pack8* row, int channel, double t, const Vec4<S>& q, double scale) const {
+  void analytic(Pack8* row, int channel, double t, const Vec4<S>& q, double scale, double residual) {
     for (int k = dual_packs_; k < packs_; ++k) row[k] = Pack8{};
-    for (int i = 8 * dual_packs_; i < columns_; ++i) {
-      const Column& column = column_[i];
-      if (column.external < 0) continue;
-      const double slope = slope_of(column, channel, t, q);
-      if (slope != 0) row[i / 8][i % 8] = slope * scale;
-    }
-  }
-
-  template <class S>
-  static double slope_of(const Column& column, int channel, double t, const Vec4<S>& q) {
-    const bool velocity = channel == kVelocity + column.axis, position = channel == kPosition + column.axis;
-    switch (column.kind) {
-      case Kind::position:
-        return position ? 1.0 : 0.0;
-      case Kind::velocity:
-        return velocity ? 1.0 : position ? t : 0.0;
-      case Kind::push:
-        if (velocity || position) return velocity ? t : 0.5 * t * t;
-        return channel >= kForce && channel < kForce + 3 ? turned(q, column.axis, channel - kForce) : 0.0;
-      case Kind::bias:
-        return channel == kGyro + column.axis ? column.derivative : 0.0;
+    const int axis = channel % 3;
+    const auto put = [&](Kind kind, int of, double slope) {
+      const int i = analytic_[static_cast<int>(kind)][of];
+      if (i < 0) return;
+      const double x = slope * column_[i].derivative * scale;
+      row[i / 8][i % 8] = x;
+      out_.g.data()[column_[i].external] += x * residual;
+    };
+    switch (channel - axis) {
+      case kGyro:
+        put(Kind::bias, axis, 1.0);
+        break;
+      case kForce:
+        for (int k = 0; k < 3; ++k) put(Kind::push, k, turned(q, k, axis));
+        break;
+      case kVelocity:
+        put(Kind::velocity, axis, 1.0), put(Kind::push, axis, t);
+        break;
+      case kPosition:
+        put(Kind::position, axis, 1.0), put(Kind::velocity, axis, t), put(Kind::push, axis, 0.5 * t * t);
+        break;
       default:
-        return 0.0;
+        break;
     }
   }
 
@@ -225,18 +229,13 @@ class ChunkKernel {
     return 2 * (v[row] * v[column] + sign * w * v[third]);
   }
 
-  // Gradient and end state of the analytic columns.
-  void analytic_gradient() {
-    const auto stride = static_cast<std::size_t>(packs_);
+  // End state of the analytic columns.
+  void analytic_end() {
     const double h = task_.t[task_.end] - task_.t[task_.begin];
     const StateLayout& layout = task_.layout;
     for (int i = 8 * dual_packs_; i < columns_; ++i) {
       const Column& column = column_[i];
       if (column.external < 0) continue;
-      double sum = 0;
-      for (std::size_t s = 0; s < samples_; ++s)
-        sum += J_[s * stride + static_cast<std::size_t>(i / 8)][i % 8] * sample_[s].residual;
-      out_.g.data()[column.external] = sum;
       const auto end = [&](int component, double derivative) {
         if (component >= 0) out_.E.data()[(component + column.axis) * d_ + column.external] = derivative;
       };
@@ -247,7 +246,6 @@ class ChunkKernel {
   }
 
   struct Sample {
-    double scale = 0, residual = 0;
     int channel = 0;
   };
 
@@ -264,6 +262,7 @@ class ChunkKernel {
   int d_, columns_ = 0, dual_packs_ = 0, packs_ = 0;
   Place* place_ = nullptr;
   Column* column_ = nullptr;
+  int analytic_[5][3];  ///< columns without dual numbers by kind and axis; -1: none
   Sample* sample_ = nullptr;
   Pack8* J_ = nullptr;
   std::size_t samples_ = 0;

@@ -80,6 +80,7 @@ class FlightSmoother {
   /// Slopes in double precision, for a fit to the last digit of exact data.
   void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
   /// Residuals beyond this many standard deviations count linearly.
+  double huber() const { return huber_; }
   void set_huber(double huber) { stands_ = stands_ && huber == huber_, huber_ = huber; }
 
   /// Residual moments of the last linearisation, which was asked for leverages.
@@ -98,6 +99,14 @@ class FlightSmoother {
   /// What blocks of about `seconds` say of the shared unknowns, states projected out, at the accepted
   /// linearisation.
   std::vector<ScoreBlock> score_blocks(double seconds) const;
+
+  /// How weighted residuals [chunk][row][kChannels] (by differences) and defects of the links [chunk] at the
+  /// accepted linearisation change with a step of the shared unknowns, the states following.
+  struct Along {
+    std::vector<std::vector<double>> residuals, residual_slopes;
+    std::vector<Eigen::VectorXd> defects, defect_slopes, weights;
+  };
+  Along along(const Eigen::VectorXd& du);
 
   /// State at the last row of each arc, from all data before it, with its covariance.
   struct End {

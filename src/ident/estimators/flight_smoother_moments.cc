@@ -123,6 +123,39 @@ double FlightSmoother::retune(int rounds) {
   return change;
 }
 
+FlightSmoother::Along FlightSmoother::along(const VectorXd& du) {
+  constexpr double kShare = 1e-3;  // of the step, to either side
+  const std::size_t K = places_.size();
+  const Index n = record_->layout.size, from = padded(record_->layout.size);
+  std::vector<VectorXd> dx(K);
+  for (std::size_t k = K; k-- > 0;) {
+    dx[k] = -accepted_.B[k] * du;
+    if (places_[k].linked) dx[k].noalias() -= accepted_.G[k] * dx[k + 1];
+  }
+  Along out{{}, {}, std::vector<VectorXd>(K), std::vector<VectorXd>(K), std::vector<VectorXd>(K)};
+  chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + shared());
+  for (std::size_t k = 0; k < K; ++k) {
+    if (!places_[k].linked) continue;
+    link_slope(k, E);
+    out.defects[k] = defect(k), out.weights[k] = link_weight(k);
+    out.defect_slopes[k] = E.leftCols(n) * dx[k] + E.middleCols(from, shared()) * du - dx[k + 1];
+  }
+  const auto residuals_at = [&](double share) {
+    for (std::size_t k = 0; k < K; ++k) trial_[k] = moved(states_[k], share * dx[k]);
+    evaluate(u_ + share * du, false, false);
+    std::vector<std::vector<double>> all;
+    for (const ChunkResult& r : results_) all.push_back(r.residuals);
+    return all;
+  };
+  const auto before = residuals_at(-kShare);
+  out.residual_slopes = residuals_at(kShare);
+  for (std::size_t k = 0; k < K; ++k)
+    for (std::size_t i = 0; i < before[k].size(); ++i)
+      out.residual_slopes[k][i] = (out.residual_slopes[k][i] - before[k][i]) / (2 * kShare);
+  out.residuals = residuals_at(0.0);
+  return out;
+}
+
 std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
   const Index n = record_->layout.size, own = theta_->size(), m = shared();
   const std::size_t K = places_.size();
@@ -132,36 +165,44 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
   }
   std::vector<ScoreBlock> blocks;
-  chunk::RowMatrix E = chunk::RowMatrix::Zero(n, padded(static_cast<int>(n)) + m);
-  MatrixXd T(n + m, m);
-  T.bottomRows(m).setIdentity();
+  std::vector<std::size_t> begin;  // first chunk of each block, and the end
   for (std::size_t k = 0; k < K; ++k) {
     const ChunkPlace& place = places_[k];
     const FlightArc& arc = record_->arcs[static_cast<std::size_t>(place.arc)];
-    if (blocks.empty() || blocks.back().arc != place.arc || blocks.back().to - blocks.back().from >= seconds)
+    if (blocks.empty() || blocks.back().arc != place.arc ||
+        blocks.back().to - blocks.back().from >= seconds) {
       blocks.push_back({place.arc, arc.t[place.begin], 0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)});
-    VectorXd& score = blocks.back().score;
-    MatrixXd& F = blocks.back().information;
-    T.topRows(n) = dX[k];
-    const auto near = T.topRows(n + own);  // profiles act through links only
-    score.noalias() += near.transpose() * chunk::g(results_[k]);
-    F.noalias() += near.transpose() * MatrixXd(chunk::A(results_[k]) * near);
-    if (k == 0 || !places_[k - 1].linked) {
-      const VectorXd info = start_information(k);
-      MatrixXd slope = dX[k];
-      if (m > own) slope.rightCols(m - own) -= profile(k);
-      score.noalias() += slope.transpose() * info.cwiseProduct(outside(k));
-      F.noalias() += slope.transpose() * MatrixXd(info.asDiagonal() * slope);
+      begin.push_back(k);
     }
-    if (place.linked) {
+    blocks.back().to = arc.t[place.end];
+  }
+  begin.push_back(K);
+  in_parallel(blocks.size(), [&](std::size_t b) {
+    VectorXd& score = blocks[b].score;
+    MatrixXd& F = blocks[b].information;
+    chunk::RowMatrix E = chunk::RowMatrix::Zero(n, padded(static_cast<int>(n)) + m);
+    MatrixXd T(n + m, m);
+    T.bottomRows(m).setIdentity();
+    for (std::size_t k = begin[b]; k < begin[b + 1]; ++k) {
+      T.topRows(n) = dX[k];
+      const auto near = T.topRows(n + own);  // profiles act through links only
+      score.noalias() += near.transpose() * chunk::g(results_[k]);
+      F.noalias() += near.transpose() * MatrixXd(chunk::A(results_[k]) * near);
+      if (k == 0 || !places_[k - 1].linked) {
+        const VectorXd info = start_information(k);
+        MatrixXd slope = dX[k];
+        if (m > own) slope.rightCols(m - own) -= profile(k);
+        score.noalias() += slope.transpose() * info.cwiseProduct(outside(k));
+        F.noalias() += slope.transpose() * MatrixXd(info.asDiagonal() * slope);
+      }
+      if (!places_[k].linked) continue;
       const VectorXd W = link_weight(k);
       link_slope(k, E);
       const MatrixXd slope = E.leftCols(n) * dX[k] + E.middleCols(padded(static_cast<int>(n)), m) - dX[k + 1];
       score.noalias() += slope.transpose() * W.cwiseProduct(defect(k));
       F.noalias() += slope.transpose() * MatrixXd(W.asDiagonal() * slope);
     }
-    blocks.back().to = arc.t[place.end];
-  }
+  });
   return blocks;
 }
 

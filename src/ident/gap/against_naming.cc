@@ -40,6 +40,17 @@ bool is_candidate(const SearchResult& search, const std::string& name) {
   return std::ranges::any_of(search.problem.candidates, [&](const Candidate& c) { return c.name == name; });
 }
 
+// Where a cause may have any size of its own, parts of a flight that ask for other sizes speak against it:
+// sum of the squares of what they ask, in deviations, that no true cause comes near; and by what share of
+// itself one of them has to want it changed, by so many deviations.
+constexpr double kAtOdds = 40.0;
+constexpr double kAtOddsBy = 0.25;
+constexpr double kAsksFor = 3.5;
+// A cause that gains less is not told from what else swings or strikes; jumps in one log that are more than
+// chance.
+constexpr double kWeak = 100.0;
+constexpr int kManyJumps = 4;
+
 // A shifted centre of gravity, or two causes that move masses, are what one thing bolted on would do. With
 // the payload in the catalogue it stands beside them there.
 bool may_be_one_payload(const SearchResult& search) {
@@ -73,6 +84,31 @@ const Candidate* changing(const SearchResult& search) {
     if (!is_loose(c) && search.scatter_of(c) > most && search.change_of(c) > by) return &c;
   }
   return nullptr;
+}
+
+// The cause found of which one channel asks for another size than the others do: another one acts there.
+const Candidate* at_odds(const SearchResult& search, std::string& part) {
+  for (std::size_t i = 0; i < search.asked.size(); ++i) {
+    const Candidate& cause = search.best.adopted[i];
+    if (is_loose(cause)) continue;
+    double odds = 0, most = 0;
+    for (const Asked& a : search.asked[i]) {
+      const double asks = a.std > 0 ? std::abs(a.change) / a.std : 0.0;
+      odds += asks * asks;
+      if (std::abs(a.change) > kAtOddsBy && asks > std::max(most, kAsksFor)) most = asks, part = a.part;
+    }
+    if (odds > kAtOdds && most > 0) return &cause;
+  }
+  return nullptr;
+}
+
+// The cause found that explains little where something swings or strikes beside it.
+const SearchStep* weak_beside_more(const SearchResult& search, const std::vector<SpectralLine>& lines,
+                                   const std::vector<Burst>& jumps) {
+  const bool strikes = std::ranges::any_of(jumps, [](const Burst& one) { return one.count >= kManyJumps; });
+  if (lines.empty() && !strikes) return nullptr;
+  const auto weak = std::ranges::min_element(search.alone, {}, &SearchStep::gain);
+  return weak != search.alone.end() && weak->gain < kWeak ? &*weak : nullptr;
 }
 
 // Where a drive of another form than the catalogue's shows: along the thrust, and in the rotors.
@@ -159,6 +195,7 @@ bool weightless_payload(const SearchResult& search, const std::vector<Parameter>
 }
 
 std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+                           const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
                            const std::vector<Parameter>& fitted) {
   if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed && !(gap.ci95[1] > kPerhapsClosed))
     return "most of the gap remains with it";
@@ -176,18 +213,27 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
   if (const Candidate* cause = changing(search))
     return fmt::format("the value of {} would have to change from one part of the flight to the next",
                        described(*cause));
+  std::string part;
+  if (const Candidate* cause = at_odds(search, part))
+    return fmt::format("{} asks for another value of {} than all else does", part, described(*cause));
+  if (const SearchStep* cause = weak_beside_more(search, lines, jumps))
+    return fmt::format("{} explains little, and beside it something swings or strikes", cause->name);
   if (const std::string name = ill_twice(search); !name.empty())
     return fmt::format("{} would have to be there on two rotors at once", name);
   if (wrong_values(search) > kMostWrong)
     return "so many values known beforehand would have to be wrong at once";
   if (is_found(search, "payload") && is_found(search, "cg_offset"))
     return "a payload shifts the centre of gravity itself";
+  if (is_found(search, "payload") && is_found(search, "parameter:m"))
+    return "a payload weighs something itself";
   const bool alone = search.best.adopted.size() == 1 && is_candidate(search, "cg_offset");
   if (weightless_payload(search, fitted) && !alone)
     return "of the payload the flight shows the moment and not the mass: a shift of the centre of gravity "
            "without one would do as well";
   if (flaps_without_drag(search))
     return "a rotor that flaps drags as well, and that was not among the causes tried";
+  if (is_found(search, "cg_offset") && !is_candidate(search, "rotor_mismatch"))
+    return "a weak rotor does nearly the same, and that was not among the causes tried";
   if (may_be_one_payload(search))
     return "that is what one thing bolted on would do, and a payload was not among the causes tried";
   return {};

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "ident/core/result.h"
+#include "ident/gap/bursts.h"
 #include "ident/gap/generic_rival.h"
 #include "ident/gap/search_result.h"
+#include "ident/gap/spectral_line.h"
 
 namespace ident {
 
@@ -18,9 +20,11 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted,
 
 /// The first of the reasons that holds, as the end of a sentence; empty if nothing does: most of the gap
 /// remains, a regression predicts what is left, a bench value is contradicted, a constant of the vehicle
-/// changes in flight, more would have to be wrong at once than go wrong, or the causes are parts of a
+/// changes in flight or from one channel to another, a weak cause stands beside what swings or strikes, more
+/// would have to be wrong at once than go wrong, or the causes are parts of a
 /// likelier one that was not tried.
 std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+                           const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
                            const std::vector<Parameter>& fitted);
 
 /// A payload of which the flight shows the moment and not the mass: a shifted centre of gravity does that.

@@ -52,6 +52,7 @@ class Search {
     fit_.tolerance = 0.02;
     finish_fit(now_.model.fit, *now_.model.theta, fit_);
     out_.best = std::move(now_.model);
+    out_.asked = asked_by_channels(out_.best);
     out_.problem = std::move(now_.problem), out_.form = std::move(now_.form);
     return std::move(out_);
   }
@@ -97,7 +98,8 @@ class Search {
       FlightFitOptions alike = fit_;
       alike.chunk_seconds = out_.base.fit.chunk_seconds;
       if (FittedModel held = with_lag_held(base, record_, p_, alike); stands(held))
-        if (Standing there = at(std::move(held)); shows_more(record_, there, now_))
+        if (Standing there = at(std::move(held));
+            shows_more(there, now_, cost_of_holding(record_, there, now_)))
           free_ = std::exchange(now_, std::move(there));
     }
     base_is(std::move(now_));

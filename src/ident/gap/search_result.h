@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/gap/by_channel.h"
 #include "ident/gap/weigh_sets.h"
 
 namespace ident {
@@ -23,6 +24,7 @@ struct SearchResult {
   std::vector<SearchStep> steps;
   std::vector<SearchStep>
       alone;  ///< what each cause found gains beside the others under the noise they leave
+  std::vector<std::vector<Asked>> asked;  ///< of each cause found by the channels, one by one
   std::vector<std::string>
       ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 

@@ -38,16 +38,8 @@ std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
   return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
 }
 
-// The bench value that a flight without causes contradicts, if its being wrong was not among those tried.
-const Parameter* contradicted_untried(const SearchResult& search, const std::vector<Parameter>& fitted) {
-  return contradicted(fitted, [&](const std::string& wrong) {
-    return std::ranges::find(search.problem.candidates, wrong, &Candidate::name) !=
-           search.problem.candidates.end();
-  });
-}
-
 // Where no cause was found: what still says that something is there.
-Judged nothing_found(const SearchResult& search, const Rival& rival, const std::vector<SpectralLine>& lines,
+Judged nothing_found(const Rival& rival, const std::vector<SpectralLine>& lines,
                      const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
   if (rival.total() > kRivalGain)
@@ -65,10 +57,10 @@ Judged nothing_found(const SearchResult& search, const Rival& rival, const std::
         "Something strikes this vehicle at moments (seen in {}, most at {} s of log {}): the wash of "
         "another vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
         jumps[0].channel, format_number(jumps[0].t, 3), jumps[0].log + 1);
-  else if (const Parameter* p = contradicted_untried(search, fitted))
+  else if (const Parameter* p = contradicted(fitted, [](const std::string&) { return false; }))
     out.sentence = fmt::format(
         "The flight contradicts the value of {} known beforehand by {:.0f} standard deviations, and no cause "
-        "that was tried explains it.",
+        "explains why.",
         p->name, std::abs(*p->pull));
   else
     out = {.status = "none",
@@ -111,9 +103,9 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     return out;
   }
   out.effects = names_of(search.best.adopted);
-  if (out.effects.empty()) return nothing_found(search, rival, lines, jumps, fitted);
+  if (out.effects.empty()) return nothing_found(rival, lines, jumps, fitted);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
-  if (const std::string why = against_naming(search, gap, rival, fitted); !why.empty()) {
+  if (const std::string why = against_naming(search, gap, rival, lines, jumps, fitted); !why.empty()) {
     out.sentence =
         fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
                     fmt::join(out.effects, " with "), why);

@@ -98,9 +98,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   return out;
 }
 
-bool shows_more(const FlightRecord& record, const Standing& held, const Standing& at_hand) {
-  const NoiseModel& noise = held.form.noise;
-  const double costs = misfit(record, held.model, noise) - misfit(record, at_hand.model, noise);
+bool shows_more(const Standing& held, const Standing& at_hand, double costs) {
   for (std::size_t c = 0; c < held.problem.candidates.size(); ++c) {
     const Candidate& cause = held.problem.candidates[c];
     const std::vector<int> there = places_of({cause}, at_hand.problem);
@@ -109,6 +107,11 @@ bool shows_more(const FlightRecord& record, const Standing& held, const Standing
     if ((with.possible || with.beyond) && with.gain > kSeen && with.gain - without.gain > costs) return true;
   }
   return false;
+}
+
+double cost_of_holding(const FlightRecord& record, const Standing& held, const Standing& at_hand) {
+  const NoiseModel& noise = held.form.noise;
+  return misfit(record, held.model, noise) - misfit(record, at_hand.model, noise);
 }
 
 }  // namespace ident

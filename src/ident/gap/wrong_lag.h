@@ -30,6 +30,9 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
 
 /// Whether with the motors' lag held where it was stated some other cause gains more than holding it costs:
 /// then the lag that the flight asks for does that cause's work. Both without causes.
-bool shows_more(const FlightRecord& record, const Standing& held, const Standing& at_hand);
+bool shows_more(const Standing& held, const Standing& at_hand, double costs);
+
+/// By how much the flight fits worse with the lag held, under the noise that is left there.
+double cost_of_holding(const FlightRecord& record, const Standing& held, const Standing& at_hand);
 
 }  // namespace ident

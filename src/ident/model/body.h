@@ -81,7 +81,7 @@ class Body {
       }
     }
     const double kT = value(p[param::kT]), n = static_cast<double>(vehicle.rotors.size());
-    Omega_hover_ = kT > 0 ? std::sqrt(value(p[param::m]) * vehicle.g / (n * kT)) : 1.0;
+    if (kT > 0) per_Omega_hover_ = sqrt((n / vehicle.g) * p[param::kT] / p[param::m]);
     m_inverse_ = 1.0 / m_;
     diagonal_ =
         is_identically_zero(J_(0, 1)) && is_identically_zero(J_(0, 2)) && is_identically_zero(J_(1, 2));
@@ -145,7 +145,7 @@ class Body {
   const S& mass() const { return m_; }
   const Mat3<S>& J() const { return J_; }
   const Vec3<S>& centre_of_gravity() const { return c_B_; }
-  double Omega_hover() const { return Omega_hover_; }
+  const S& per_Omega_hover() const { return per_Omega_hover_; }
 
  private:
   // What a hub sees of the body's motion.
@@ -188,7 +188,7 @@ class Body {
       }
       const Eigen::Vector3d& r_B = vehicle_->rotors[n].r_B;
       RotorSeam<S> rotor;
-      rotor.index = static_cast<int>(n), rotor.Omega_hover = Omega_hover_;
+      rotor.index = static_cast<int>(n), rotor.per_Omega_hover = &per_Omega_hover_;
       rotor.axis = fixed ? &arms_[n].a_B : nullptr, rotor.a_B = a_B_[n];
       rotor.Omega = Omega, rotor.T = p_[param::kT] * Omega2, rotor.Q = p_[param::kQ] * Omega2;
       if (around && (touches & kTouchFlow)) rotor.v_air_B = around->v_air_B + cross(around->state->w_B, r_B);
@@ -270,7 +270,7 @@ class Body {
     Eigen::Vector3d a_B, moment_B, spin_B;
   };
   std::vector<Arm> arms_;
-  double Omega_hover_ = 1.0;
+  S per_Omega_hover_ = S(1.0);
   bool off_centre_ = false, spinning_ = false, linear_drag_ = false, diagonal_ = false, plain_ = false,
        fixed_axes_ = true;
 };

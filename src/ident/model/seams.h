@@ -35,7 +35,7 @@ struct AirSeam {
 template <class S>
 struct RotorSeam {
   int index = 0;                          ///< 0 for the first rotor
-  double Omega_hover = 1.0;               ///< nominal rotor speed at hover, rad/s
+  const S* per_Omega_hover = nullptr;     ///< inverse of the nominal rotor speed at hover, s/rad
   const Eigen::Vector3d* axis = nullptr;  ///< the thrust axis where it is a constant
   S Omega;                                ///< rad/s
   Vec3<S> v_air_B;                        ///< air-relative velocity of the hub, m/s
