@@ -25,7 +25,8 @@ TEST(WrongLag, IsHeldWhereAnotherCauseGainsMoreByItThanItCosts) {
 }
 
 TEST(WrongLag, IsNotHeldForItselfNorForWhatIsHardlySeen) {
-  EXPECT_FALSE(shows_more(a_bias_that_gains(500, "parameter:zeta_m"), a_bias_that_gains(0, "parameter:zeta_m"), 0));
+  EXPECT_FALSE(
+      shows_more(a_bias_that_gains(500, "parameter:zeta_m"), a_bias_that_gains(0, "parameter:zeta_m"), 0));
   EXPECT_FALSE(shows_more(a_bias_that_gains(90), a_bias_that_gains(0), 0));
 }
 

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBlock = 2.0;  // s
+constexpr double kBlock = 2.0;        // s
 constexpr double kLeastShare = 1e-6;  // of what is known of a size; a part that tells less is silent
 
 // Channels that tell of one motion, and the components of the local state (1 or 0) whose links go with them.
@@ -79,7 +79,8 @@ double sum_of(const std::vector<double>& x) { return std::accumulate(x.begin(), 
 struct Told {
   std::vector<std::vector<double>> score, information;
 };
-Told told(const FlightSmoother& smoother, const FlightSmoother::Along& along, const std::vector<Part>& parts) {
+Told told(const FlightSmoother& smoother, const FlightSmoother::Along& along,
+          const std::vector<Part>& parts) {
   Told out{std::vector<std::vector<double>>(parts.size()), std::vector<std::vector<double>>(parts.size())};
   int arc = -1;
   double from = 0;
@@ -100,7 +101,8 @@ Told told(const FlightSmoother& smoother, const FlightSmoother::Along& along, co
         score += weight * r * slope, information += weight * slope * slope;
       }
       if (!place.linked) continue;
-      const VectorXd weighted = along.weights[k].cwiseProduct(parts[p].states).cwiseProduct(along.defect_slopes[k]);
+      const VectorXd weighted =
+          along.weights[k].cwiseProduct(parts[p].states).cwiseProduct(along.defect_slopes[k]);
       score += weighted.dot(along.defects[k]), information += weighted.dot(along.defect_slopes[k]);
     }
   }
@@ -137,7 +139,8 @@ std::vector<std::vector<Asked>> asked_by_channels(const FittedModel& model) {
       if (!(known > kLeastShare * all)) continue;
       const double change = -sum_of(score) / known;
       double spread = 0;
-      for (std::size_t b = 0; b < score.size(); ++b) spread += std::pow(score[b] + change * information[b], 2);
+      for (std::size_t b = 0; b < score.size(); ++b)
+        spread += std::pow(score[b] + change * information[b], 2);
       out.back().push_back({parts[p].name, change + left / all, std::sqrt(spread) / known, known / all});
     }
   }

@@ -183,14 +183,14 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Json scatter = Json::object();
   for (const Candidate& c : search.best.adopted) scatter[described(c)] = search.scatter_of(c);
   result.extra["scatter"] = scatter;
-  Json asked = Json::object();
+  Json by_channel = Json::object();
   for (std::size_t i = 0; i < search.asked.size(); ++i) {
     Json parts = Json::object();
     for (const Asked& part : search.asked[i])
       parts[part.part] = {{"change", part.change}, {"std", part.std}, {"weight", part.weight}};
-    asked[described(search.best.adopted[i])] = parts;
+    by_channel[described(search.best.adopted[i])] = parts;
   }
-  result.extra["asked"] = asked;
+  result.extra["by_channel"] = by_channel;
   result.extra["usual_scatter"] = search.usual_scatter();
   Json narrow = Json::array();
   for (const SpectralLine& line : lines)

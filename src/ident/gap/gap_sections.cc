@@ -16,7 +16,8 @@ namespace {
 using Eigen::Index;
 using Json = nlohmann::ordered_json;
 
-constexpr double kMuch = 0.4;  // share of a quarter of the flight that is worth a sentence
+constexpr double kHeard = 0.005;  // share of what is known of a size, below which a channel has no say
+constexpr double kMuch = 0.4;     // share of a quarter of the flight that is worth a sentence
 
 double number(const Json& j) { return j.is_number() ? j.get<double>() : kNaN; }
 
@@ -91,12 +92,32 @@ void add_cause(Table& table, const Json& found, const std::string& name) {
   table.rows.push_back({"", "to be sure", std::string(effect->info.split_by)});
 }
 
+/// The causal test: a true cause has one size in all that a flight shows.
+Table by_channel_table(const Json& found) {
+  Table table{.title = "What each channel asks of a cause's size",
+              .columns = {"cause", "channel", "change [%]", "±", "share of what is known [%]"}};
+  if (!found.contains("by_channel")) return table;
+  for (const auto& [cause, parts] : found["by_channel"].items())
+    for (const auto& [part, asked] : parts.items()) {
+      if (!(number(asked["weight"]) > kHeard)) continue;
+      table.rows.push_back({cause, part, fmt::format("{:+.0f}", 100 * number(asked["change"])),
+                            percent(asked["std"]), percent(asked["weight"])});
+    }
+  return table;
+}
+
 Section which_section(const Json& found) {
   Section section{.title = "Which causes"};
   Table table{.title = "The causes named", .columns = {"cause", "", "what is known"}};
   for (const char* list : {"effects", "confused_with"})
     for (const std::string& name : words(found["verdict"][list])) add_cause(table, found, name);
   if (!table.rows.empty()) section.tables.push_back(std::move(table));
+  if (Table asked = by_channel_table(found); !asked.rows.empty()) {
+    section.text =
+        "A true cause has one size in all that a flight shows. The second table says by how much of itself "
+        "each channel would change it; what is within twice its deviation is chance.";
+    section.tables.push_back(std::move(asked));
+  }
   if (Plot plot = probability_plot(found["candidates"]); !plot.series.empty())
     section.plots.push_back(std::move(plot));
   return section;
