@@ -148,10 +148,11 @@ VectorXd FlightSmoother::defect(std::size_t k) const {
   if (layout.v >= 0) d.segment<3>(layout.v) = a.body.v_W - b.body.v_W;
   if (layout.x >= 0) d.segment<3>(layout.x) = a.body.x_W - b.body.x_W;
   const VectorXd share = carried(k);
-  if (layout.w_dot >= 0)
-    d.segment<3>(layout.w_dot) = share[layout.w_dot] * a.outside.w_dot_B - b.outside.w_dot_B;
-  if (layout.v_dot >= 0)
-    d.segment<3>(layout.v_dot) = share[layout.v_dot] * a.outside.v_dot_W - b.outside.v_dot_W;
+  const auto carries = [&](int at, const Vec3<double>& before, const Vec3<double>& after) {
+    if (at >= 0) d.segment<3>(at) = share.segment<3>(at).cwiseProduct(before) - after;
+  };
+  carries(layout.w_dot, a.outside.w_dot_B, b.outside.w_dot_B);
+  carries(layout.v_dot, a.outside.v_dot_W, b.outside.v_dot_W);
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const auto m = static_cast<std::size_t>(n);
     d[layout.motors + n] = a.motors[m].Omega - b.motors[m].Omega;
