@@ -254,6 +254,35 @@ TEST(FlightKernel, SlopesOfTheConstantsHoldWithEveryEffect) {
   }
 }
 
+TEST(FlightSmoother, EachAxisCarriesItsOwnShareOfAGust) {
+  Setting s;
+  NoiseModel noise = initial_noise(s.record);
+  noise.air[0].w_dot = {{{0.5, 0.02}, {1.0, 0.1}, {2.0, 1.0}}};
+  noise.air[0].v_dot = {{{0.2, 1.0}, {0.4, 0.1}, {0.8, 0.02}}};
+  FlightSmoother smoother(s.record, s.theta, noise, 0.1, 1);
+  constexpr std::size_t k = 3;
+  const auto defect_with = [&](const FlightState<double>& state) {
+    std::vector<FlightState<double>> states = smoother.states();
+    states[k] = state;
+    smoother.set_states(states);
+    smoother.residuals();
+    return smoother.defects()[k];
+  };
+  const ChunkPlace& place = smoother.chunks()[k];
+  const double h = s.record.arcs[0].t[place.end] - s.record.arcs[0].t[place.begin];
+  const FlightState<double> calm = smoother.states()[k];
+  const Eigen::VectorXd before = defect_with(calm);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto of_axis = static_cast<std::size_t>(axis);
+    FlightState<double> turned = calm, pushed = calm;
+    turned.outside.w_dot_B[axis] += 1, pushed.outside.v_dot_W[axis] += 1;
+    EXPECT_NEAR((defect_with(turned) - before)[s.record.layout.w_dot + axis],
+                noise.air[0].w_dot[of_axis].carried(h), 1e-12);
+    EXPECT_NEAR((defect_with(pushed) - before)[s.record.layout.v_dot + axis],
+                noise.air[0].v_dot[of_axis].carried(h), 1e-12);
+  }
+}
+
 TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   Setting s;
   // Start 3 % off everywhere; the mass keeps its scale.
