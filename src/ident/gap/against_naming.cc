@@ -35,14 +35,8 @@ constexpr double kMassSeen = 5.0;
 constexpr double kContradicts = 5.0;
 // And as many of the bench's own, which a flight that tells little need not reach.
 constexpr double kOff = 2.0;
-
-bool is_candidate(const SearchResult& search, const std::string& name) {
-  return std::ranges::any_of(search.problem.candidates, [&](const Candidate& c) { return c.name == name; });
-}
-
-// Where a cause may have any size of its own, parts of a flight that ask for other sizes speak against it:
-// sum of the squares of what they ask, in deviations, that no true cause comes near; and by what share of
-// itself one of them has to want it changed, by so many deviations.
+// What the channels ask of a cause's size, in deviations: sum of the squares that no true cause came near;
+// and by what share of itself one of them has to want it changed, by so many deviations.
 constexpr double kAtOdds = 40.0;
 constexpr double kAtOddsBy = 0.25;
 constexpr double kAsksFor = 3.5;
@@ -50,6 +44,10 @@ constexpr double kAsksFor = 3.5;
 // chance.
 constexpr double kWeak = 100.0;
 constexpr int kManyJumps = 4;
+
+bool is_candidate(const SearchResult& search, const std::string& name) {
+  return std::ranges::any_of(search.problem.candidates, [&](const Candidate& c) { return c.name == name; });
+}
 
 // A shifted centre of gravity, or two causes that move masses, are what one thing bolted on would do. With
 // the payload in the catalogue it stands beside them there.
