@@ -95,7 +95,7 @@ TEST(FlightRefine, DeadTimeThatIsNoMultipleOfTheRowsLeavesNoBias) {
   Vehicle measured = as_measured(truth);
   measured.parameters["dead_time"] = {0.005, 0.001};
   const Result result = refine_flight(measured, flights(truth, options), {.validate = false});
-  expect_found(result, truth, 1e-4);
+  expect_found(result, truth, 2e-4);
   EXPECT_NEAR(result.find("dead_time")->value, 0.0053, 1e-6);
 }
 

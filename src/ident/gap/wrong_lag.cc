@@ -31,6 +31,10 @@ bool off(const FittedModel& model, int index, double deviations) {
   return false;
 }
 
+bool far_from_stated(double found, double stated) {
+  return std::max(found / stated, stated / found) >= kNoPhysics;
+}
+
 // The stated value times a factor at which the flight fits best with all else as stated; NaN where it flies
 // with none.
 double best_start(const FlightRecord& record, const std::vector<double>& p,
@@ -87,14 +91,20 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   std::vector<Candidate> causes = at_hand.adopted;
   causes.push_back(*cause);
   WrongLag out{*cause, fitted(constants, causes, record, p, again)};
+  // The model at hand may have come there by itself, against what was stated.
+  if (far_from_stated(at_hand.theta->physical(at_hand.fit.u, cause->parameter), omega_m.prior_value)) {
+    for (std::size_t i = 0; i < constants.size(); ++i)
+      constants[i].start = at_hand.theta->physical(at_hand.fit.u, static_cast<int>(i));
+    FittedModel on = fitted(constants, causes, record, p, again);
+    if (stands(on) && (!stands(out.model) || on.fit.cost < out.model.fit.cost)) out.model = std::move(on);
+  }
   if (!stands(out.model)) return {};
   FlightSmoother smoother(record, *at_hand.theta, form.noise, again.chunk_seconds);
   smoother.set_states(at_hand.fit.smoother->states());
   smoother.settle(at_hand.fit.u, 1);
   out.gain = total_cost(smoother, *at_hand.theta, at_hand.fit.u) - out.model.fit.cost;
-  const double found = out.model.theta->physical(out.model.fit.u, cause->parameter),
-               ratio = found / omega_m.prior_value;
-  if (!(out.gain > 0) || found < kSlowest || std::max(ratio, 1 / ratio) < kNoPhysics) return {};
+  const double found = out.model.theta->physical(out.model.fit.u, cause->parameter);
+  if (!(out.gain > 0) || found < kSlowest || !far_from_stated(found, omega_m.prior_value)) return {};
   return out;
 }
 
