@@ -171,6 +171,8 @@ TEST(AgainstNaming, ACauseOfWhichOneChannelAsksForAnotherSizeIsNotNamed) {
   const Judged other = c.judged();
   EXPECT_EQ(other.status, "unknown");
   EXPECT_NE(other.sentence.find("roll asks"), std::string::npos) << other.sentence;
+  c.search.asked[0][0].weight = 0.005;  // it knows next to nothing of that size
+  EXPECT_EQ(c.judged().status, "identified");
   c.search.asked[0][0] = {"roll", 0.2, 0.03, 0.1};  // by a fifth of itself
   EXPECT_EQ(c.judged().status, "identified");
   c.search.asked[0][0] = {"roll", 0.4, 0.2, 0.1};  // it is rotor speeds that disagree, by little

@@ -40,6 +40,7 @@ constexpr double kOff = 2.0;
 constexpr double kAtOdds = 40.0;
 constexpr double kAtOddsBy = 0.25;
 constexpr double kAsksFor = 3.5;
+constexpr double kHasASay = 0.01;  // share of what is known of the size; a channel that tells less has none
 // A cause that gains less is not told from what else swings or strikes; jumps in one log that are more than
 // chance.
 constexpr double kWeak = 100.0;
@@ -91,6 +92,7 @@ const Candidate* at_odds(const SearchResult& search, std::string& part) {
     if (is_loose(cause)) continue;
     double odds = 0, most = 0;
     for (const Asked& a : search.asked[i]) {
+      if (a.weight < kHasASay) continue;
       const double asks = a.std > 0 ? std::abs(a.change) / a.std : 0.0;
       odds += asks * asks;
       if (std::abs(a.change) > kAtOddsBy && asks > std::max(most, kAsksFor)) most = asks, part = a.part;
