@@ -3,11 +3,40 @@
 
 #include <gtest/gtest.h>
 
+#include "ident/core/random.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/model/simulate.h"
+#include "support/open_loop_flight.h"
 
 namespace ident {
 namespace {
+
+TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
+  Setting s;
+  // Start 3 % off everywhere; the mass keeps its scale.
+  std::vector<double> off = s.p;
+  for (const int i : {param::kT, param::kQ, param::km, param::omega_m, param::Jxx, param::Jyy, param::Jzz})
+    off[static_cast<std::size_t>(i)] *= 1.03;
+  Vehicle v = s.vehicle;
+  for (auto& [name, known] : v.parameters)
+    if (name != "m") known.std = std::nullopt;
+  const FlightRecord record = make_flight_record(v, off, s.logs);
+  const Theta theta(off, free_constants(v, off), 1, true);
+  FlightFitOptions options;
+  options.estimate_noise = false;
+  options.robust = false;
+  NoiseModel noise = initial_noise(record);
+  for (std::size_t i = 0; i < 3; ++i) noise.air[0].w_dot[i].sigma = noise.air[0].v_dot[i].sigma = 0;
+  noise.q_motor = 0;
+  options.noise = noise;
+  options.chunk_seconds = 0.4;
+  options.tolerance = 1e-14;
+  const FlightFit fit = fit_flight(record, theta, options);
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(theta.physical(fit.u, i) / s.p[static_cast<std::size_t>(c.index)], 1.0, 1e-8) << c.name;
+  }
+}
 
 TEST(FlightFit, ACalmLogIsNotTakenForAGustyOne) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
@@ -28,6 +57,50 @@ TEST(FlightFit, ACalmLogIsNotTakenForAGustyOne) {
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_LT(noise.air[1].v_dot[k].sigma, 0.2 * noise.air[0].v_dot[k].sigma);
   EXPECT_GT(noise.air[0].v_dot[0].sigma, 0.0);
+}
+
+// A flight in still air, moved on by a Gauss-Markov acceleration (0.5 m/s^2, 1.5 s) that keeps its direction
+// in the world, or in the body; nothing but place and speed goes with it, as the model has no drag.
+FlightLog pushed(const SimulatedFlight& flight, GustAxes axes) {
+  FlightLog log = flight.log;
+  Random random(7);
+  Eigen::Vector3d push = Eigen::Vector3d::Zero(), v = push, x = push;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const Eigen::Matrix3d R_WB = rotation(flight.truth[i].body.q_WB);
+    const Eigen::Vector3d a_W = axes == GustAxes::world ? push : R_WB * push, f_B = R_WB.transpose() * a_W;
+    for (int k = 0; k < 3; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      log.v_W[c][i] += v[k], log.x_W[c][i] += x[k], log.f_B[c][i] += f_B[k];
+    }
+    if (i + 1 == log.rows()) break;
+    const double h = log.t[i + 1] - log.t[i], keep = std::exp(-h / 1.5);
+    x += h * v + h * h / 2 * a_W, v += h * a_W;
+    for (double& one : push) one = keep * one + 0.5 * std::sqrt(1 - keep * keep) * random.normal();
+  }
+  return log;
+}
+
+TEST(FlightFit, GustsGetTheAxesThatTheyHave) {
+  Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  SimulationOptions options;
+  options.duration = 30.0;
+  options.rate = 100.0;
+  const SimulatedFlight flight = simulate_flight(vehicle, options);
+  vehicle.parameters["kT"].std = 0.1 * vehicle.value("kT");
+  const std::vector<double> p = parameter_vector(vehicle);
+  for (const GustAxes axes : {GustAxes::world, GustAxes::body}) {
+    const std::vector<FlightLog> logs{pushed(flight, axes)};
+    const FlightRecord record = make_flight_record(vehicle, p, logs);
+    const Theta theta(p, free_constants(vehicle, p), 1, true);
+    const FlightFit fit = fit_flight(record, theta);
+    EXPECT_EQ(fit.noise.axes, axes);
+    for (const ColouredNoise& axis : fit.noise.air[0].v_dot) {
+      EXPECT_GT(axis.sigma, 0.3);
+      EXPECT_LT(axis.sigma, 0.8);
+    }
+    ASSERT_EQ(theta.name(0), "kT");
+    EXPECT_LT(std::abs(fit.u[0]), 3.5 * std::sqrt(fit.covariance(0, 0)));
+  }
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ FlightState<double> moved(FlightState<double> x, const StateLayout& layout, int 
   if (within(layout.v, 3)) x.body.v_W[i - layout.v] += d;
   if (within(layout.x, 3)) x.body.x_W[i - layout.x] += d;
   if (within(layout.w_dot, 3)) x.outside.w_dot_B[i - layout.w_dot] += d;
-  if (within(layout.v_dot, 3)) x.outside.v_dot_W[i - layout.v_dot] += d;
+  if (within(layout.v_dot, 3)) x.outside.v_dot[i - layout.v_dot] += d;
   if (within(layout.motors, 2 * layout.rotors)) {
     const int n = i - layout.motors;
     auto& motor = x.motors[static_cast<std::size_t>(n % layout.rotors)];
@@ -154,7 +154,7 @@ Eigen::VectorXd apart(const FlightState<double>& a, const FlightState<double>& b
   put(layout.v, b.body.v_W - a.body.v_W);
   put(layout.x, b.body.x_W - a.body.x_W);
   put(layout.w_dot, b.outside.w_dot_B - a.outside.w_dot_B);
-  put(layout.v_dot, b.outside.v_dot_W - a.outside.v_dot_W);
+  put(layout.v_dot, b.outside.v_dot - a.outside.v_dot);
   const Vec4<double>& q = a.body.q_WB;
   put(layout.attitude,
       2 * quaternion_product(Vec4<double>(q[0], -q[1], -q[2], -q[3]), b.body.q_WB).tail<3>());
@@ -199,6 +199,16 @@ TEST(FlightKernel, SlopesOfTheStartAreThoseOfCostAndEnd) {
   Setting s;
   std::vector<double> constants;
   expect_true_slopes(s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants));
+}
+
+TEST(FlightKernel, SlopesOfTheStartHoldWithAPushThatTurnsWithTheBody) {
+  Setting s;
+  std::vector<double> constants;
+  ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants);
+  task.x0.body.w_B = {1.0, -2.0, 1.5};
+  task.x0.outside.v_dot = {0.5, -0.3, 0.8};
+  task.x0.outside.axes = GustAxes::body;
+  expect_true_slopes(task);
 }
 
 // Which columns need no dual numbers goes with what the effects touch.
@@ -251,62 +261,6 @@ TEST(FlightKernel, SlopesOfTheConstantsHoldWithEveryEffect) {
                    analytic = 2 * here.g[static_cast<std::size_t>(s.record.layout.size + i)];
       EXPECT_NEAR(analytic, numeric, 1e-3 * std::abs(numeric) + 1e-6 * here.cost) << s.theta.name(i);
     }
-  }
-}
-
-TEST(FlightSmoother, EachAxisCarriesItsOwnShareOfAGust) {
-  Setting s;
-  NoiseModel noise = initial_noise(s.record);
-  noise.air[0].w_dot = {{{0.5, 0.02}, {1.0, 0.1}, {2.0, 1.0}}};
-  noise.air[0].v_dot = {{{0.2, 1.0}, {0.4, 0.1}, {0.8, 0.02}}};
-  FlightSmoother smoother(s.record, s.theta, noise, 0.1, 1);
-  constexpr std::size_t k = 3;
-  const auto defect_with = [&](const FlightState<double>& state) {
-    std::vector<FlightState<double>> states = smoother.states();
-    states[k] = state;
-    smoother.set_states(states);
-    smoother.residuals();
-    return smoother.defects()[k];
-  };
-  const ChunkPlace& place = smoother.chunks()[k];
-  const double h = s.record.arcs[0].t[place.end] - s.record.arcs[0].t[place.begin];
-  const FlightState<double> calm = smoother.states()[k];
-  const Eigen::VectorXd before = defect_with(calm);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto of_axis = static_cast<std::size_t>(axis);
-    FlightState<double> turned = calm, pushed = calm;
-    turned.outside.w_dot_B[axis] += 1, pushed.outside.v_dot_W[axis] += 1;
-    EXPECT_NEAR((defect_with(turned) - before)[s.record.layout.w_dot + axis],
-                noise.air[0].w_dot[of_axis].carried(h), 1e-12);
-    EXPECT_NEAR((defect_with(pushed) - before)[s.record.layout.v_dot + axis],
-                noise.air[0].v_dot[of_axis].carried(h), 1e-12);
-  }
-}
-
-TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
-  Setting s;
-  // Start 3 % off everywhere; the mass keeps its scale.
-  std::vector<double> off = s.p;
-  for (const int i : {param::kT, param::kQ, param::km, param::omega_m, param::Jxx, param::Jyy, param::Jzz})
-    off[static_cast<std::size_t>(i)] *= 1.03;
-  Vehicle v = s.vehicle;
-  for (auto& [name, known] : v.parameters)
-    if (name != "m") known.std = std::nullopt;
-  const FlightRecord record = make_flight_record(v, off, s.logs);
-  const Theta theta(off, free_constants(v, off), 1, true);
-  FlightFitOptions options;
-  options.estimate_noise = false;
-  options.robust = false;
-  NoiseModel noise = initial_noise(record);
-  for (std::size_t i = 0; i < 3; ++i) noise.air[0].w_dot[i].sigma = noise.air[0].v_dot[i].sigma = 0;
-  noise.q_motor = 0;
-  options.noise = noise;
-  options.chunk_seconds = 0.4;
-  options.tolerance = 1e-14;
-  const FlightFit fit = fit_flight(record, theta, options);
-  for (int i = 0; i < theta.constants_count(); ++i) {
-    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    EXPECT_NEAR(theta.physical(fit.u, i) / s.p[static_cast<std::size_t>(c.index)], 1.0, 1e-8) << c.name;
   }
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <tuple>
 
 #include "ident/estimators/flight_fit.h"
+#include "support/open_loop_flight.h"
 #include "support/published_hover.h"
 
 namespace ident {
@@ -83,6 +85,35 @@ void expect_blocks_add_up(FlightSmoother& smoother) {
             1e-3 * (1 + unit.cwiseProduct(system.g).cwiseAbs().maxCoeff()));
 }
 
+TEST(FlightSmoother, EachAxisCarriesItsOwnShareOfAGust) {
+  Setting s;
+  NoiseModel noise = initial_noise(s.record);
+  noise.air[0].w_dot = {{{0.5, 0.02}, {1.0, 0.1}, {2.0, 1.0}}};
+  noise.air[0].v_dot = {{{0.2, 1.0}, {0.4, 0.1}, {0.8, 0.02}}};
+  FlightSmoother smoother(s.record, s.theta, noise, 0.1, 1);
+  constexpr std::size_t k = 3;
+  const auto defect_with = [&](const FlightState<double>& state) {
+    std::vector<FlightState<double>> states = smoother.states();
+    states[k] = state;
+    smoother.set_states(states);
+    smoother.residuals();
+    return smoother.defects()[k];
+  };
+  const ChunkPlace& place = smoother.chunks()[k];
+  const double h = s.record.arcs[0].t[place.end] - s.record.arcs[0].t[place.begin];
+  const FlightState<double> calm = smoother.states()[k];
+  const Eigen::VectorXd before = defect_with(calm);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto of_axis = static_cast<std::size_t>(axis);
+    FlightState<double> turned = calm, pushed = calm;
+    turned.outside.w_dot_B[axis] += 1, pushed.outside.v_dot[axis] += 1;
+    EXPECT_NEAR((defect_with(turned) - before)[s.record.layout.w_dot + axis],
+                noise.air[0].w_dot[of_axis].carried(h), 1e-12);
+    EXPECT_NEAR((defect_with(pushed) - before)[s.record.layout.v_dot + axis],
+                noise.air[0].v_dot[of_axis].carried(h), 1e-12);
+  }
+}
+
 TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles) {
   Vehicle vehicle = testing::published_vehicle();
   for (const char* name : {"kT", "kQ", "Jxx", "Jyy", "Jzz"})
@@ -95,21 +126,25 @@ TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles)
   }
   const std::vector<double> p = parameter_vector(vehicle);
   const FlightRecord record = make_flight_record(vehicle, p, logs);
-  for (const bool linked : {true, false})
-    for (const bool constants : {true, false}) {
-      const Theta theta(p, constants ? free_constants(vehicle, p) : std::vector<FreeConstant>{}, 2, true);
-      FlightSmoother smoother(record, theta, initial_noise(record), 0.15);
-      smoother.set_exact(true);
-      if (!linked) smoother.unlink();
-      const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
-      smoother.settle(u, 6);
-      expect_blocks_add_up(smoother);
-      smoother.set_profiles(std::vector<Eigen::MatrixXd>(smoother.chunks().size(),
-                                                         Eigen::MatrixXd(Eigen::VectorXd::Unit(6, 4))));
-      smoother.relinearize();
-      smoother.accept();
-      expect_blocks_add_up(smoother);
-    }
+  for (const auto& [linked, constants, axes] :
+       {std::tuple{true, true, GustAxes::world}, std::tuple{true, true, GustAxes::body},
+        std::tuple{true, false, GustAxes::world}, std::tuple{false, true, GustAxes::world},
+        std::tuple{false, false, GustAxes::body}}) {
+    const Theta theta(p, constants ? free_constants(vehicle, p) : std::vector<FreeConstant>{}, 2, true);
+    NoiseModel noise = initial_noise(record);
+    noise.axes = axes;
+    FlightSmoother smoother(record, theta, noise, 0.15);
+    smoother.set_exact(true);
+    if (!linked) smoother.unlink();
+    const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+    smoother.settle(u, 6);
+    expect_blocks_add_up(smoother);
+    smoother.set_profiles(
+        std::vector<Eigen::MatrixXd>(smoother.chunks().size(), Eigen::MatrixXd(Eigen::VectorXd::Unit(6, 4))));
+    smoother.relinearize();
+    smoother.accept();
+    expect_blocks_add_up(smoother);
+  }
 }
 
 // The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew

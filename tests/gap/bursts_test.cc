@@ -25,7 +25,7 @@ std::vector<Burst> found_with(double burst, double* at = nullptr) {
   double gust = 0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     gust = 0.9 * gust + random.normal();
-    states[k].outside.v_dot_W = {0.0, 0.0, gust + (k == 90 || k == 91 ? burst : 0.0)};
+    states[k].outside.v_dot = {0.0, 0.0, gust + (k == 90 || k == 91 ? burst : 0.0)};
   }
   fit.smoother->set_states(states);
   return bursts(record, fit);

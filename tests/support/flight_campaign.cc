@@ -88,6 +88,7 @@ void fly(Case& c, double seconds) {
 
 NoiseModel true_noise(const Case& c, const FlightRecord& record) {
   NoiseModel noise;
+  noise.axes = GustAxes::body;
   noise.sigma = record.sigma;
   const SensorNoise sensor = noise_level("typical");
   for (std::size_t k = 0; k < 3; ++k) {

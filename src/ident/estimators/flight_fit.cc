@@ -13,6 +13,8 @@ namespace {
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
 // Fall of the cost that is worth a step with exact slopes.
 constexpr double kWorthAStep = 0.01;
+// Change of a noise level from which on it is good enough to choose the axes of gusts.
+constexpr double kNearly = 0.3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 // A mean square of residuals, in variances, so large that the model is far from any minimum, and what is made
@@ -84,6 +86,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   if (options.estimate_noise) first.max_steps = kFirstSteps;
   trust_region(first);
   tell(0.3);
+  bool axes_chosen = !options.choose_axes;
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
     smoother->linearize(u, true);
     smoother->accept();
@@ -96,7 +99,10 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       restart();
     }
     tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
-    if (change < 0.03 || (round >= 5 && change < 0.3)) break;
+    const bool first_calm = !axes_chosen && change < kNearly;
+    if (first_calm) axes_chosen = true, choose_axes(*smoother, u);
+    const bool changed = first_calm && smoother->noise().axes != GustAxes::world;
+    if (!changed && (change < 0.03 || (round >= 5 && change < 0.3))) break;
     smoother->accept();
     const NewtonStep step = newton_step(*smoother, u);
     if (step.fall < kNear && theta.possible(u + step.du))

@@ -16,6 +16,7 @@ struct FlightFitOptions {
   int noise_rounds = 10;
   bool robust = true;      ///< count gross errors linearly
   bool fine_gusts = true;  ///< chunks so short that no gust within them passes for information on the vehicle
+  bool choose_axes = true;     ///< whether gusts keep their direction in the world or turn with the vehicle
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
   int threads = 0;
@@ -58,6 +59,10 @@ NoiseModel initial_noise(const FlightRecord& record);
 /// Noise levels from the last linearisation, which had leverages: `rounds` steps for the process noise, one
 /// for the sensors; returns the largest relative change of a standard deviation.
 double update_noise(FlightSmoother& smoother, int rounds);
+
+/// Gives gusts the axes, those of the world or those of the body, that make the flight more likely. The
+/// smoother has those of the world, and noise that is about right.
+void choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u);
 
 /// Chunks short enough for that noise, s; `fine`: see FlightFitOptions.
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine = true);

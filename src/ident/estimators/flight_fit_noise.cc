@@ -7,6 +7,10 @@
 namespace ident {
 namespace {
 
+constexpr double kNoGust = 0.01;       // m/s^2: weaker ones move no constant, whatever their axes
+constexpr double kBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
+constexpr int kRetune = 3;
+
 double rms_rate_of(const FlightRecord& record, int channel) {
   double sum = 0, n = 0;
   for (const FlightArc& arc : record.arcs) {
@@ -57,6 +61,31 @@ double update_noise(FlightSmoother& smoother, int rounds) {
   }
   smoother.set_noise(noise);
   return std::max(0.3 * change, white);
+}
+
+void choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
+  const StateLayout& layout = smoother.record().layout;
+  double strongest = 0;
+  for (const AirNoise& air : smoother.noise().air)
+    for (const ColouredNoise& axis : air.v_dot) strongest = std::max(strongest, axis.sigma);
+  if (layout.attitude < 0 || layout.v_dot < 0 || strongest < kNoGust) return;
+  const auto surprise_of = [&](const NoiseModel& noise) {
+    smoother.set_noise(noise);
+    smoother.settle(u, 1);
+    smoother.linearize(u, true);
+    smoother.accept();
+    smoother.retune(kRetune);
+    return smoother.surprise();
+  };
+  const NoiseModel world = smoother.noise();
+  const std::vector<FlightState<double>> states = smoother.states();
+  const double in_world = surprise_of(world);
+  NoiseModel body = world;
+  body.axes = GustAxes::body;
+  if (surprise_of(body) < in_world - kBeyondDoubt) return;
+  smoother.set_noise(world);
+  smoother.set_states(states);
+  smoother.settle(u, 1);
 }
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {

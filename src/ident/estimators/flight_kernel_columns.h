@@ -64,7 +64,7 @@ struct KernelColumns {
 
  private:
   // Where a chunk starts matters to nothing but the ground; how fast, to drag and what the flow touches; a
-  // push reaches the accelerometer as it is unless that is turned.
+  // push in the world reaches the accelerometer as it is unless that is turned.
   static Kind kind_of(const ChunkTask& task, unsigned touches, int i) {
     const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
     const StateLayout& layout = task.layout;
@@ -72,7 +72,8 @@ struct KernelColumns {
     if (within(layout.x)) return Kind::position;
     if ((touches & kTouchFlow) != 0) return Kind::dual;
     if (within(layout.v)) return Kind::velocity;
-    if (within(layout.v_dot) && (touches & kTouchImuFrame) == 0) return Kind::push;
+    if (within(layout.v_dot) && task.x0.outside.axes == GustAxes::world && (touches & kTouchImuFrame) == 0)
+      return Kind::push;
     return Kind::dual;
   }
 

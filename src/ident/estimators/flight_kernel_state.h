@@ -22,15 +22,16 @@ class KernelState {
       const int at = place_[external].at;
       if (at >= from && at < to) scalar.seed(at - from, derivative);
     };
+    s.outside.axes = x.outside.axes;
     for (int k = 0; k < 4; ++k) s.body.q_WB[k] = S(x.body.q_WB[k]);
     for (int k = 0; k < 3; ++k) {
       s.body.w_B[k] = S(x.body.w_B[k]), s.body.v_W[k] = S(x.body.v_W[k]), s.body.x_W[k] = S(x.body.x_W[k]);
       seed(s.body.w_B[k], layout.w + k, 1.0);
       if (layout.v >= 0) seed(s.body.v_W[k], layout.v + k, 1.0);
       if (layout.x >= 0) seed(s.body.x_W[k], layout.x + k, 1.0);
-      s.outside.w_dot_B[k] = S(x.outside.w_dot_B[k]), s.outside.v_dot_W[k] = S(x.outside.v_dot_W[k]);
+      s.outside.w_dot_B[k] = S(x.outside.w_dot_B[k]), s.outside.v_dot[k] = S(x.outside.v_dot[k]);
       if (layout.w_dot >= 0) seed(s.outside.w_dot_B[k], layout.w_dot + k, 1.0);
-      if (layout.v_dot >= 0) seed(s.outside.v_dot_W[k], layout.v_dot + k, 1.0);
+      if (layout.v_dot >= 0) seed(s.outside.v_dot[k], layout.v_dot + k, 1.0);
       if (layout.attitude < 0) continue;
       // Half of q * (0, e_k), written out: no function of plain numbers may be compiled here.
       const double w = 0.5 * x.body.q_WB[0], along = 0.5 * x.body.q_WB[1 + k],
@@ -63,7 +64,7 @@ class KernelState {
       if (layout.v >= 0) put_end(E, layout.v + k, end.body.v_W[k], from);
       if (layout.x >= 0) put_end(E, layout.x + k, end.body.x_W[k], from);
       if (layout.w_dot >= 0) put_end(E, layout.w_dot + k, end.outside.w_dot_B[k], from);
-      if (layout.v_dot >= 0) put_end(E, layout.v_dot + k, end.outside.v_dot_W[k], from);
+      if (layout.v_dot >= 0) put_end(E, layout.v_dot + k, end.outside.v_dot[k], from);
     }
     if (layout.motors < 0) return;
     for (int i = 0; i < layout.rotors; ++i) {
@@ -79,7 +80,7 @@ class KernelState {
     for (int k = 0; k < 4; ++k) x.body.q_WB[k] = s.body.q_WB[k].v;
     for (int k = 0; k < 3; ++k) {
       x.body.w_B[k] = s.body.w_B[k].v, x.body.v_W[k] = s.body.v_W[k].v, x.body.x_W[k] = s.body.x_W[k].v;
-      x.outside.w_dot_B[k] = s.outside.w_dot_B[k].v, x.outside.v_dot_W[k] = s.outside.v_dot_W[k].v;
+      x.outside.w_dot_B[k] = s.outside.w_dot_B[k].v, x.outside.v_dot[k] = s.outside.v_dot[k].v;
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(task_.layout.rotors); ++i)
       x.motors[i] = {s.motors[i].Omega.v, s.motors[i].Omega_dot.v};

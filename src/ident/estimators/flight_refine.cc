@@ -210,6 +210,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   for (const AirNoise& air : fit.noise.air)
     result.fit["process_noise"].push_back(
         {{"angular_acceleration", process_json(air.w_dot)}, {"acceleration", process_json(air.v_dot)}});
+  result.fit["axes_of_acceleration"] = fit.noise.axes == GustAxes::world ? "world" : "body";
   nlohmann::ordered_json levels;
   for (int c = 0; c < kChannels; ++c)
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)

@@ -194,8 +194,10 @@ Section outside_accelerations(const FlightRecord& record, const FlightFit& fit) 
     add("Angular acceleration from outside, body frame", "rad/s^2", air.w_dot, {"x", "y", "z"},
         [](const State& x, std::size_t i) { return x.outside.w_dot_B[static_cast<Eigen::Index>(i)]; });
   if (record.layout.v_dot >= 0)
-    add("Acceleration from outside, world frame", "m/s^2", air.v_dot, {"x", "y", "z"},
-        [](const State& x, std::size_t i) { return x.outside.v_dot_W[static_cast<Eigen::Index>(i)]; });
+    add(fit.noise.axes == GustAxes::world ? "Acceleration from outside, world frame"
+                                          : "Acceleration from outside, body frame",
+        "m/s^2", air.v_dot, {"x", "y", "z"},
+        [](const State& x, std::size_t i) { return x.outside.v_dot[static_cast<Eigen::Index>(i)]; });
   return section;
 }
 

@@ -48,13 +48,29 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
   }
   arc_begin_.push_back(places_.size());
   results_.resize(places_.size());
-  trial_ = states_;
+  set_axes();
   u_ = trial_u_ = VectorXd::Zero(theta.size());
 }
 
 void FlightSmoother::set_noise(const NoiseModel& noise) {
-  if (noise.sigma != noise_.sigma) stands_ = false;
+  const bool turn = noise.axes != noise_.axes;
+  if (turn || noise.sigma != noise_.sigma) stands_ = false;
   noise_ = noise;
+  if (!turn) return;
+  set_axes();
+  accepted_ = {};  // steps along other axes
+}
+
+// The accelerations of all states along the axes of the noise.
+void FlightSmoother::set_axes() {
+  for (FlightState<double>& x : states_) {
+    if (x.outside.axes == noise_.axes) continue;
+    const Eigen::Matrix3d R_WB = rotation(x.body.q_WB);
+    const bool turns = noise_.axes == GustAxes::body;
+    x.outside.v_dot = (turns ? Eigen::Matrix3d(R_WB.transpose()) : R_WB) * x.outside.v_dot;
+    x.outside.axes = noise_.axes;
+  }
+  trial_ = states_;
 }
 
 void FlightSmoother::unlink() {
@@ -127,7 +143,7 @@ FlightState<double> FlightSmoother::moved(const FlightState<double>& x, const Ve
   if (layout.v >= 0) y.body.v_W += dx.segment<3>(layout.v);
   if (layout.x >= 0) y.body.x_W += dx.segment<3>(layout.x);
   if (layout.w_dot >= 0) y.outside.w_dot_B += dx.segment<3>(layout.w_dot);
-  if (layout.v_dot >= 0) y.outside.v_dot_W += dx.segment<3>(layout.v_dot);
+  if (layout.v_dot >= 0) y.outside.v_dot += dx.segment<3>(layout.v_dot);
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     y.motors[static_cast<std::size_t>(n)].Omega += dx[layout.motors + n];
     y.motors[static_cast<std::size_t>(n)].Omega_dot += dx[layout.motors + layout.rotors + n];
@@ -152,7 +168,7 @@ VectorXd FlightSmoother::defect(std::size_t k) const {
     if (at >= 0) d.segment<3>(at) = share.segment<3>(at).cwiseProduct(before) - after;
   };
   carries(layout.w_dot, a.outside.w_dot_B, b.outside.w_dot_B);
-  carries(layout.v_dot, a.outside.v_dot_W, b.outside.v_dot_W);
+  carries(layout.v_dot, a.outside.v_dot, b.outside.v_dot);
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const auto m = static_cast<std::size_t>(n);
     d[layout.motors + n] = a.motors[m].Omega - b.motors[m].Omega;

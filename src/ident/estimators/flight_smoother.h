@@ -32,6 +32,7 @@ struct ReducedSystem {
   double cost = 0.0;  ///< at the best states for u, to second order
   Eigen::VectorXd g;
   Eigen::MatrixXd S;
+  double log_det = 0.0;  ///< of the states' information, over that of the links and of what precedes an arc
 };
 
 /// Per channel: squared weighted residuals, what the states took from them, and samples.
@@ -73,14 +74,17 @@ class FlightSmoother {
   void settle(const Eigen::VectorXd& u, int rounds = 2);
 
   /// Takes over states, from a smoother with the same chunks.
-  void set_states(const std::vector<FlightState<double>>& states) { states_ = trial_ = states; }
+  void set_states(const std::vector<FlightState<double>>& states) {
+    states_ = states;
+    set_axes();
+  }
 
   /// Another noise model; the states stay.
   void set_noise(const NoiseModel& noise);
   /// Slopes in double precision, for a fit to the last digit of exact data.
   void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
-  /// Residuals beyond this many standard deviations count linearly.
   double huber() const { return huber_; }
+  /// Residuals beyond this many standard deviations count linearly.
   void set_huber(double huber) { stands_ = stands_ && huber == huber_, huber_ = huber; }
 
   /// Residual moments of the last linearisation, which was asked for leverages.
@@ -88,10 +92,13 @@ class FlightSmoother {
   /// Process noise that makes the last linearisation most likely (expectation maximisation, `rounds` steps),
   /// and the states eliminated under it; gives the largest relative change of a standard deviation.
   double retune(int rounds);
+  /// Minus twice the log likelihood of the noise, states integrated out and shared unknowns at their optimum,
+  /// by the last elimination; without the constant that only the measurements set.
+  double surprise() const;
   /// Calls `work` for 0 to count - 1 on all threads.
   void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const;
   /// Further shared unknowns, after theta in the reduced system: accelerations from outside that follow given
-  /// profiles, [chunk](6 x count) over (w_dot, v_dot). None with an empty list.
+  /// profiles, [chunk](6 x count) over (w_dot_B, v_dot_W). None with an empty list.
   void set_profiles(std::vector<Eigen::MatrixXd> profiles) { profiles_ = std::move(profiles); }
   /// Cuts all links: every chunk starts afresh.
   void unlink();
@@ -150,6 +157,7 @@ class FlightSmoother {
   Eigen::VectorXd shared_optimum() const;
   std::vector<Eigen::VectorXd> state_steps(const Eigen::VectorXd& du) const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
+  void set_axes();
   void posterior_covariances(Elimination& el) const;
 
   const FlightRecord* record_;

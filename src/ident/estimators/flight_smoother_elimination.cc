@@ -49,7 +49,7 @@ struct FlightSmoother::ArcElimination {
   Matrix U;          // over the next state
   Matrix solved;     // [U | B f | 1], then L^-1 of it, then D^-1 of it
   Matrix sum;        // [S g]
-  double cost = 0.0;
+  double cost = 0.0, log_det = 0.0;
 };
 
 // What is known of the accelerations from outside where an arc begins.
@@ -59,6 +59,8 @@ void FlightSmoother::add_start(std::size_t k, ArcElimination& arc) const {
   arc.D().diagonal() += info;
   arc.f() += info.cwiseProduct(x);
   arc.cost += x.dot(info.cwiseProduct(x));
+  for (const double one : info)
+    if (one > 0) arc.log_det -= std::log(one);
   if (further == 0) return;
   const MatrixXd P = profile(k), WP = info.asDiagonal() * P;
   arc.B().rightCols(further) -= WP;
@@ -82,6 +84,7 @@ void FlightSmoother::add_link(std::size_t k, ArcElimination& arc, const VectorXd
   dense.add_products(ArcElimination::rows(arc.own), E(0), n, WE(0), arc.from + arc.shared, n, 1.0);
   dense.add_products(ArcElimination::rows(arc.sum), E(arc.from), m, WE(arc.from), arc.shared, n, 1.0);
   arc.cost += d.dot(W.cwiseProduct(d));
+  arc.log_det -= W.array().log().sum();
   arc.U.leftCols(n) = -arc.WE.leftCols(n).transpose();
   arc.next = -arc.WE;
   arc.next.leftCols(n) = W.asDiagonal();
@@ -128,6 +131,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
       llt.compute(arc.D());
     }
     const ArcElimination::Matrix& L = llt.matrixLLT();
+    arc.log_det += 2 * L.diagonal().array().log().sum();
     arc.solved.leftCols(from) = arc.U;
     arc.solved.middleCols(from, arc.shared) = arc.own.rightCols(arc.shared);
     arc.solved.middleCols(right, n).setIdentity();
@@ -141,7 +145,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     el.f[k] = arc.solved.col(from + m);
     el.D_inverse[k] = arc.solved.middleCols(right, n);
   }
-  sum = {arc.cost, arc.g(), arc.S()};
+  sum = {arc.cost, arc.g(), arc.S(), arc.log_det};
 }
 
 void FlightSmoother::eliminate(const VectorXd* held) {
@@ -151,9 +155,11 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   std::vector<ReducedSystem> parts(arcs);
   in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a], held); });
   if (held) return;
-  reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared())};
-  for (const ReducedSystem& part : parts)
+  reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared()), 0.0};
+  for (const ReducedSystem& part : parts) {
     reduced_.cost += part.cost, reduced_.g += part.g, reduced_.S += part.S;
+    reduced_.log_det += part.log_det;
+  }
   reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
 }
 

@@ -65,7 +65,7 @@ VectorXd FlightSmoother::outside(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   VectorXd x = VectorXd::Zero(layout.size);
   if (layout.w_dot >= 0) x.segment<3>(layout.w_dot) = trial_[k].outside.w_dot_B;
-  if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot_W;
+  if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot;
   return x;
 }
 
@@ -78,7 +78,10 @@ MatrixXd FlightSmoother::profile(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   MatrixXd P = MatrixXd::Zero(layout.size, profiles_[k].cols());
   if (layout.w_dot >= 0) P.middleRows<3>(layout.w_dot) = profiles_[k].topRows<3>();
-  if (layout.v_dot >= 0) P.middleRows<3>(layout.v_dot) = profiles_[k].bottomRows<3>();
+  const Eigen::MatrixXd push = profiles_[k].bottomRows<3>();
+  if (layout.v_dot >= 0)
+    P.middleRows<3>(layout.v_dot) =
+        noise_.axes == GustAxes::world ? push : rotation(states_[k].body.q_WB).transpose() * push;
   return P;
 }
 

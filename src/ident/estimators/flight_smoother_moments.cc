@@ -67,6 +67,16 @@ Moments FlightSmoother::moments() const {
   return sum;
 }
 
+double FlightSmoother::surprise() const {
+  const PriorTerms prior = theta_->prior(trial_u_);
+  double sum = reduced_.cost + prior.residual.squaredNorm() + reduced_.log_det;
+  if (theta_->size() > 0)  // down to the optimum, along the quadratic form
+    sum += shared_optimum().dot(reduced_.g + prior.slope.cwiseProduct(prior.residual));
+  for (const ChunkResult& r : results_)
+    for (std::size_t c = 0; c < kChannels; ++c) sum += 2 * r.count[c] * std::log(noise_.sigma[c]);
+  return sum;
+}
+
 double FlightSmoother::retune(int rounds) {
   const StateLayout& layout = record_->layout;
   const int n = layout.size;

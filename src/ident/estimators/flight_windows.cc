@@ -65,7 +65,7 @@ ChunkTask FlightWindows::task(std::size_t w, double horizon) const {
   task.end = row_at(arc, arc.t[windows_[w].row] + horizon);
   task.t = arc.t.data(), task.y = arc.y.data(), task.q = arc.q.data();
   task.x0 = ends_[w].x;
-  task.x0.outside = {};
+  task.x0.outside = {.axes = task.x0.outside.axes};
   return task;
 }
 

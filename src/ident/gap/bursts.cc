@@ -23,8 +23,7 @@ std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
     if (!places[k].linked || arc.log != log) continue;
     const Disturbance<double>&a = states[k].outside, &b = states[k + 1].outside;
-    const double size =
-        axis < 3 ? b.w_dot_B[axis] - a.w_dot_B[axis] : b.v_dot_W[axis - 3] - a.v_dot_W[axis - 3];
+    const double size = axis < 3 ? b.w_dot_B[axis] - a.w_dot_B[axis] : b.v_dot[axis - 3] - a.v_dot[axis - 3];
     const double h = arc.t[places[k].end] - arc.t[places[k].begin],
                  rows = static_cast<double>(places[k].end - places[k].begin);
     const int channel = axis < 3 ? kGyro + axis : kVelocity + axis - 3;

@@ -34,7 +34,8 @@ class Search {
       : record_(record), vehicle_(vehicle), p_(p), options_(options) {
     fit_.tolerance = 0.02;
     fit_.noise_rounds = 4;
-    fit_.fine_gusts = false;  // sets are compared under a dispersion that is common to them
+    fit_.fine_gusts = false;   // sets are compared under a dispersion that is common to them
+    fit_.choose_axes = false;  // a force that the model lacks would choose them
   }
 
   SearchResult run() {

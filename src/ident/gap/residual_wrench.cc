@@ -73,11 +73,13 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
     out.t.push_back(arc.t[place.begin] + h / 2);
     out.log.push_back(arc.log);
     // What the smoother took for accelerations from outside, and what the accelerometer shows beyond it.
-    const Eigen::Vector3d push_B = R.transpose() * x.outside.v_dot_W;
+    const bool turns = x.outside.axes == GustAxes::body;
+    const Eigen::Vector3d push_B = turns ? x.outside.v_dot : R.transpose() * x.outside.v_dot;
     const AirNoise& air = floor.in_log(arc.log);
-    Eigen::Vector3d gusts_W;
-    for (int i = 0; i < 3; ++i) gusts_W[i] = std::pow(air.v_dot[static_cast<std::size_t>(i)].sigma, 2);
-    const Eigen::Vector3d gusts_B = R.transpose().cwiseAbs2() * gusts_W;
+    Eigen::Vector3d gusts;
+    for (int i = 0; i < 3; ++i) gusts[i] = std::pow(air.v_dot[static_cast<std::size_t>(i)].sigma, 2);
+    const Eigen::Vector3d gusts_B =
+        floor.axes == GustAxes::body ? gusts : Eigen::Vector3d(R.transpose().cwiseAbs2() * gusts);
     for (int c = 0; c < 3; ++c) {
       const auto cc = static_cast<std::size_t>(c);
       double sum = 0, count = 0;

@@ -105,7 +105,7 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
       const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
       const Disturbance<double>& air = states[k].outside;
       pieces[static_cast<std::size_t>(places[k].arc)].push_back(axis < 3 ? air.w_dot_B[axis]
-                                                                         : air.v_dot_W[axis - 3]);
+                                                                         : air.v_dot[axis - 3]);
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
     look_for_line(names[static_cast<std::size_t>(axis)], pieces, seconds / static_cast<double>(places.size()),

@@ -29,11 +29,16 @@ struct BodyState {
   Vec3<S> w_B, v_W, x_W;
 };
 
+/// Axes along which an acceleration from outside keeps its direction: wind that of the world, what the air
+/// does to rotors and body turns with them.
+enum class GustAxes { world, body };
+
 /// Accelerations that nothing in the model explains, gusts mostly: constant over a piece of flight. They add
 /// to (5) and (6), so that an accelerometer feels them.
 template <class S>
 struct Disturbance {
-  Vec3<S> w_dot_B{S(0.0), S(0.0), S(0.0)}, v_dot_W{S(0.0), S(0.0), S(0.0)};
+  Vec3<S> w_dot_B{S(0.0), S(0.0), S(0.0)}, v_dot{S(0.0), S(0.0), S(0.0)};
+  GustAxes axes = GustAxes::world;  ///< of v_dot
 };
 
 /// Time derivative of a BodyState, and the specific force at the origin.
@@ -227,7 +232,10 @@ class Body {
     if (outside) out.w_dot_B += outside->w_dot_B;
     for (int i = 0; i < 3; ++i) out.f_B[i] = total.F_B[i] * m_inverse_;  // (6)
     if (off_centre_) out.f_B -= cross(out.w_dot_B, c_B_) + cross(w, cross(w, c_B_));
-    if (outside) out.f_B += turned_into_body(R_WB, outside->v_dot_W);
+    if (outside && outside->axes == GustAxes::world)
+      out.f_B += turned_into_body(R_WB, outside->v_dot);
+    else if (outside)
+      out.f_B += outside->v_dot;
     for (int i = 0; i < 3; ++i)
       out.v_dot_W[i] = R_WB(i, 0) * out.f_B[0] + R_WB(i, 1) * out.f_B[1] + R_WB(i, 2) * out.f_B[2];
     out.v_dot_W[2] = out.v_dot_W[2] + vehicle_->g;
