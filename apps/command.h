@@ -20,6 +20,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/result.h"
+#include "ident/core/shown.h"
 #include "ident/io/write_file.h"
 
 namespace ident::app {
@@ -32,6 +33,7 @@ struct Context {
   std::vector<std::string> used;
   /// Decisions worth telling (separator, units); shown on stderr, in JSON as `notices`.
   std::vector<std::string> notices;
+  Shown shown = Shown::pictures;  ///< of the result
   /// Files to write. They appear together after the command has succeeded, or not at all.
   Outputs outputs;
 };

@@ -66,6 +66,7 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
   } else if (campaign) {
     input.vehicle = known_vehicle(*campaign, logs, model, context);
     context.used.push_back(campaign->file);
+    context.shown = Shown::pictures;  // the result is kept for the report of the campaign
   } else {
     throw UsageError("no vehicle: name one with --vehicle FILE, or run where there is an ident.yaml");
   }

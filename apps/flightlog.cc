@@ -37,9 +37,10 @@ Outcome run(const Options& options, Context& context) {
   RefineOptions refine;
   refine.free = options.free;
   refine.bootstrap = options.bootstrap;
+  refine.shown = context.shown;
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
-  verify_too(result, input, options.horizon);
+  if (refine.shown != Shown::numbers) verify_too(result, input, options.horizon);
   if (input.campaign)
     context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
   return result;

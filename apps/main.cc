@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   for (const Registered& command : commands) {
     if (!command.cli->parsed()) continue;
     Context context{.command_line = std::vector<std::string>(argv, argv + argc)};
+    if (command.shared->report.empty()) context.shown = command.shared->json ? Shown::numbers : Shown::tables;
     Outcome outcome = command.action(context);
     return static_cast<int>(finish(std::move(outcome), context, *command.shared));
   }

@@ -47,10 +47,7 @@ TEST(AgainstNaming, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidS
 TEST(AgainstNaming, AContradictedBenchValueMakesItUnknownUnlessItIsTheCause) {
   Case c({"rotor_tilt", "parameter:kT"}, {"rotor_tilt"});
   c.weighs({0}, 1.0);
-  Parameter kT;
-  kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
-  kT.pull = 6.0, kT.from_flight = 0.9;
-  c.fitted = {kT};
+  c.contradicts_kT(6.0);
   const Judged against = c.judged();
   EXPECT_EQ(against.status, "unknown");
   EXPECT_NE(against.sentence.find("kT"), std::string::npos) << against.sentence;

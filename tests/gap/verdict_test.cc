@@ -106,14 +106,11 @@ TEST(Verdict, HowTheSensorIsMountedIsNamedOnTopOfThree) {
 
 TEST(Verdict, WithoutACauseAContradictedBenchValueIsAGap) {
   Case c({"parameter:kT"}, {});
-  Parameter kT;
-  kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
-  kT.pull = 6.0, kT.from_flight = 0.9;
-  c.fitted = {kT};
+  c.contradicts_kT(6.0);
   const Judged seen = c.judged();
   EXPECT_EQ(seen.status, "unknown");
   EXPECT_NE(seen.sentence.find("kT"), std::string::npos) << seen.sentence;
-  c.fitted[0].pull = 4.0;
+  c.contradicts_kT(4.0);
   EXPECT_EQ(c.judged().status, "none");
 }
 

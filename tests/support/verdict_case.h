@@ -29,6 +29,13 @@ struct VerdictCase {
   void weighs(const std::vector<int>& members, double probability) {
     search.sets.push_back({members, 0.0, probability});
   }
+  /// kT: the flight says 1.3 where the bench said 1.0 +- 0.05.
+  void contradicts_kT(double deviations) {
+    Parameter kT;
+    kT.name = "kT", kT.value = 1.3, kT.prior_value = 1.0, kT.prior_std = 0.05;
+    kT.pull = deviations, kT.from_flight = 0.9;
+    fitted = {kT};
+  }
   Judged judged() const { return judge(search, gap, rival, lines, jumps, fitted); }
 };
 

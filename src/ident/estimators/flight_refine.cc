@@ -225,11 +225,14 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
       if (std::abs(result.correlation(i, k)) > 0.95)
         result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
                                               theta.name(k), theta.name(i), result.correlation(i, k)));
-  result.sections.push_back(data_health(record, logs, fit.noise));
-  result.sections.push_back(flight_residuals(record, fit));
-  result.sections.push_back(outside_accelerations(record, fit));
-  std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
-                    std::back_inserter(result.sections));
+  if (options.shown != Shown::numbers) {
+    result.sections.push_back(data_health(record, logs, fit.noise));
+    result.sections.push_back(flight_residuals(record, fit));
+    result.sections.push_back(outside_accelerations(record, fit));
+  }
+  if (options.shown == Shown::pictures)
+    std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
+                      std::back_inserter(result.sections));
   if (options.validate && record.duration > 6) {
     const RecordSplit split = split_record(record, 0.7);
     FlightFit view = fit;

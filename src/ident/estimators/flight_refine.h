@@ -6,6 +6,7 @@
 #include <span>
 
 #include "ident/core/result.h"
+#include "ident/core/shown.h"
 #include "ident/data/flight_log.h"
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_prediction.h"
@@ -15,6 +16,7 @@ namespace ident {
 struct RefineOptions {
   std::vector<std::string> free;  ///< further constants to estimate, by name
   bool validate = true;           ///< prediction error on held-out flight, before and after
+  Shown shown = Shown::pictures;  ///< sections beyond that are left out
   int bootstrap = 0;              ///< draws of a block bootstrap in place of the sandwich; 0: none
   std::function<void(double)> progress;
 };

@@ -156,6 +156,7 @@ class FlightSmoother {
   void add_link(std::size_t k, ArcElimination& arc, const Eigen::VectorXd* held) const;
   Eigen::VectorXd shared_optimum() const;
   std::vector<Eigen::VectorXd> state_steps(const Eigen::VectorXd& du) const;
+  std::vector<Eigen::MatrixXd> state_slopes() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void set_axes();
   void posterior_covariances(Elimination& el) const;

@@ -204,4 +204,14 @@ std::vector<VectorXd> FlightSmoother::state_steps(const VectorXd& du) const {
   return dx;
 }
 
+// Derivative of the accepted states, at their best, over the shared unknowns.
+std::vector<MatrixXd> FlightSmoother::state_slopes() const {
+  std::vector<MatrixXd> dX(places_.size());
+  for (std::size_t k = places_.size(); k-- > 0;) {
+    dX[k] = -accepted_.B[k];
+    if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
+  }
+  return dX;
+}
+
 }  // namespace ident

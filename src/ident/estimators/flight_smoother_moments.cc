@@ -137,11 +137,9 @@ FlightSmoother::Along FlightSmoother::along(const VectorXd& du) {
   constexpr double kShare = 1e-3;  // of the step, to either side
   const std::size_t K = places_.size();
   const Index n = record_->layout.size, from = padded(record_->layout.size);
+  const std::vector<MatrixXd> dX = state_slopes();
   std::vector<VectorXd> dx(K);
-  for (std::size_t k = K; k-- > 0;) {
-    dx[k] = -accepted_.B[k] * du;
-    if (places_[k].linked) dx[k].noalias() -= accepted_.G[k] * dx[k + 1];
-  }
+  for (std::size_t k = 0; k < K; ++k) dx[k] = dX[k] * du;
   Along out{{}, {}, std::vector<VectorXd>(K), std::vector<VectorXd>(K), std::vector<VectorXd>(K)};
   chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + shared());
   for (std::size_t k = 0; k < K; ++k) {
@@ -169,11 +167,7 @@ FlightSmoother::Along FlightSmoother::along(const VectorXd& du) {
 std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
   const Index n = record_->layout.size, own = theta_->size(), m = shared();
   const std::size_t K = places_.size();
-  std::vector<MatrixXd> dX(K);  // of the states over the shared unknowns
-  for (std::size_t k = K; k-- > 0;) {
-    dX[k] = -accepted_.B[k];
-    if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
-  }
+  const std::vector<MatrixXd> dX = state_slopes();
   std::vector<ScoreBlock> blocks;
   std::vector<std::size_t> begin;  // first chunk of each block, and the end
   for (std::size_t k = 0; k < K; ++k) {

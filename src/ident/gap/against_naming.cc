@@ -40,7 +40,6 @@ constexpr double kOff = 2.0;
 constexpr double kAtOdds = 40.0;
 constexpr double kAtOddsBy = 0.25;
 constexpr double kAsksFor = 3.5;
-constexpr double kHasASay = 0.01;  // share of what is known of the size; a channel that tells less has none
 // A cause that gains less is not told from what else swings or strikes; jumps in one log that are more than
 // chance.
 constexpr double kWeak = 100.0;
@@ -155,6 +154,11 @@ bool flaps_without_drag(const SearchResult& search) {
   return is_found(search, "blade_flapping") && !is_candidate(search, "rotor_drag") && !stated();
 }
 
+// A weak rotor tilts the vehicle as a shifted centre of gravity does.
+bool perhaps_a_weak_rotor(const SearchResult& search) {
+  return is_found(search, "cg_offset") && !is_candidate(search, "rotor_mismatch");
+}
+
 // An effect that was needed on two rotors at once. One ill rotor is an accident; two that together do what
 // the residual wants are more likely two columns of a regression.
 std::string ill_twice(const SearchResult& search) {
@@ -232,7 +236,7 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
            "without one would do as well";
   if (flaps_without_drag(search))
     return "a rotor that flaps drags as well, and that was not among the causes tried";
-  if (is_found(search, "cg_offset") && !is_candidate(search, "rotor_mismatch"))
+  if (perhaps_a_weak_rotor(search))
     return "a weak rotor does nearly the same, and that was not among the causes tried";
   if (may_be_one_payload(search))
     return "that is what one thing bolted on would do, and a payload was not among the causes tried";

@@ -16,6 +16,9 @@ struct Asked {
   double weight = 0.0;  ///< share of what is known of the size
 };
 
+/// A part whose weight is less has no say in a cause's size.
+inline constexpr double kHasASay = 0.01;
+
 /// For each adopted cause what each part asks.
 std::vector<std::vector<Asked>> asked_by_channels(const FittedModel& model);
 

@@ -8,6 +8,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/effects/catalogue.h"
+#include "ident/gap/by_channel.h"
 #include "ident/gap/gap_pictures.h"
 
 namespace ident {
@@ -16,8 +17,7 @@ namespace {
 using Eigen::Index;
 using Json = nlohmann::ordered_json;
 
-constexpr double kHeard = 0.005;  // share of what is known of a size, below which a channel has no say
-constexpr double kMuch = 0.4;     // share of a quarter of the flight that is worth a sentence
+constexpr double kMuch = 0.4;  // share of a quarter of the flight that is worth a sentence
 
 double number(const Json& j) { return j.is_number() ? j.get<double>() : kNaN; }
 
@@ -99,7 +99,7 @@ Table by_channel_table(const Json& found) {
   if (!found.contains("by_channel")) return table;
   for (const auto& [cause, parts] : found["by_channel"].items())
     for (const auto& [part, asked] : parts.items()) {
-      if (!(number(asked["weight"]) > kHeard)) continue;
+      if (!(number(asked["weight"]) >= kHasASay)) continue;
       table.rows.push_back({cause, part, fmt::format("{:+.0f}", 100 * number(asked["change"])),
                             percent(asked["std"]), percent(asked["weight"])});
     }
