@@ -11,11 +11,12 @@
 namespace ident {
 namespace {
 
-FlightLog flight_of(const Vehicle& vehicle) {
+FlightLog flight_of(const Vehicle& vehicle, int rotor_speeds = 1) {
   SimulationOptions options;
   options.duration = 20.0;
   options.rate = 100.0;
   options.seed = 3;
+  options.signals.rotor_speeds = rotor_speeds;
   return simulate_flight(vehicle, options).log;
 }
 
@@ -42,6 +43,17 @@ TEST(ByChannel, AllAskForTheSameSizeOfTheTrueCause) {
     weights += a.weight;
   }
   EXPECT_NEAR(weights, 1.0, 1e-3);  // next to nothing of it is known beforehand
+}
+
+TEST(ByChannel, RotorSpeedsThatNobodyMeasuredAreNotSaidToTell) {
+  Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  for (auto& [name, parameter] : vehicle.parameters) parameter.std = 0.01 * std::abs(parameter.value);
+  const auto tells = [&](int rotor_speeds) {
+    const std::vector<Asked> all = asked_of("Jxx", vehicle, flight_of(vehicle, rotor_speeds));
+    return std::ranges::find(all, "rotor speeds", &Asked::part) != all.end();
+  };
+  EXPECT_TRUE(tells(1));
+  EXPECT_FALSE(tells(0));
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct Part {
   VectorXd states;
 };
 
-std::vector<Part> parts_of(const StateLayout& layout) {
+std::vector<Part> parts_of(const FlightRecord& record) {
+  const StateLayout& layout = record.layout;
   static constexpr std::array names = {"roll", "pitch", "yaw", "level", "level", "height"};
   std::vector<Part> parts;
   const auto part_named = [&](const std::string& name) -> Part& {
@@ -45,7 +46,8 @@ std::vector<Part> parts_of(const StateLayout& layout) {
     add(static_cast<std::size_t>(k) + 3, k, {kForce, kVelocity, kPosition},
         {layout.v, layout.x, layout.v_dot});
   if (layout.motors < 0) return parts;
-  Part& motors = part_named("rotor speeds");
+  // Motors that nobody measures may stray a little from their equation, and that little says something too.
+  Part& motors = part_named(record.signals.rotor_speeds ? "rotor speeds" : "motors (not measured)");
   for (int n = 0; n < layout.rotors; ++n) motors.channels[static_cast<std::size_t>(kRotorChannel + n)] = true;
   motors.states.segment(layout.motors, 2 * layout.rotors).setOnes();
   return parts;
@@ -114,7 +116,7 @@ Told told(const FlightSmoother& smoother, const FlightSmoother::Along& along,
 std::vector<std::vector<Asked>> asked_by_channels(const FittedModel& model) {
   const Theta& theta = *model.theta;
   FlightSmoother& smoother = *model.fit.smoother;
-  const std::vector<Part> parts = parts_of(smoother.record().layout);
+  const std::vector<Part> parts = parts_of(smoother.record());
   const PriorTerms prior = theta.prior(model.fit.u);
   const MatrixXd H = model.fit.information + prior_information(theta, model.fit.u);
   std::vector<std::vector<Asked>> out;

@@ -10,7 +10,7 @@ namespace ident {
 
 /// What one part of what a flight shows asks of the size of a cause found, all else being refitted with it.
 struct Asked {
-  std::string part;     ///< "roll", "height", "rotor speeds"
+  std::string part;     ///< "roll", "height", "rotor speeds" or "motors (not measured)"
   double change = 0.0;  ///< by what share of itself the size would change if the part had its way
   double std = 0.0;     ///< of that, by its scatter over blocks of flight
   double weight = 0.0;  ///< share of what is known of the size
