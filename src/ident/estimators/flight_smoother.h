@@ -79,7 +79,7 @@ class FlightSmoother {
     set_axes();
   }
 
-  /// Another noise model; the states stay.
+  /// Another noise model; the states stay. After a change of axes the next linearisation has no leverage yet.
   void set_noise(const NoiseModel& noise);
   /// Slopes in double precision, for a fit to the last digit of exact data.
   void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
