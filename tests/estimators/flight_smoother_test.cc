@@ -173,6 +173,17 @@ TEST(FlightSmoother, NoiseIsTheSameWithTheSharedUnknownsHeldForSomeRounds) {
     EXPECT_NEAR(held.noise().air[0].w_dot[k].sigma / free.noise().air[0].w_dot[k].sigma, 1.0, 0.02) << k;
   }
   EXPECT_NEAR(held.reduced().cost / free.reduced().cost, 1.0, 0.01);
+  // What makes the flight most likely surprises least.
+  const NoiseModel best = held.noise();
+  const double least = held.surprise();
+  for (const double factor : {0.7, 1.4})
+    for (const bool push : {true, false}) {
+      NoiseModel other = best;
+      for (ColouredNoise& axis : push ? other.air[0].v_dot : other.air[0].w_dot) axis.sigma *= factor;
+      held.set_noise(other);
+      held.relinearize();
+      EXPECT_GT(held.surprise(), least + 1) << factor << " " << push;
+    }
 }
 
 }  // namespace

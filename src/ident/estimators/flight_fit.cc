@@ -13,7 +13,7 @@ namespace {
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
 // Fall of the cost that is worth a step with exact slopes.
 constexpr double kWorthAStep = 0.01;
-// Change of a noise level from which on it is good enough to choose the axes of gusts.
+// Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
 constexpr double kNearly = 0.3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
@@ -102,7 +102,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     const bool first_calm = !axes_chosen && change < kNearly;
     if (first_calm) axes_chosen = true, choose_axes(*smoother, u);
     const bool changed = first_calm && smoother->noise().axes != GustAxes::world;
-    if (!changed && (change < 0.03 || (round >= 5 && change < 0.3))) break;
+    if (!changed && (change < 0.03 || (round >= 5 && change < kNearly))) break;
     smoother->accept();
     const NewtonStep step = newton_step(*smoother, u);
     if (step.fall < kNear && theta.possible(u + step.du))
