@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ident/estimators/statistics.h"
 
@@ -10,11 +11,6 @@ namespace ident {
 namespace {
 
 constexpr double kLongestShift = 0.06;  ///< s by which streams of one log may be apart
-
-void clip(Track& x) {
-  const double low = quantile(x, 0.005), high = quantile(x, 0.995);
-  for (double& v : x) v = std::clamp(v, low, high);
-}
 
 }  // namespace
 
@@ -58,21 +54,29 @@ Track channel_track(const FlightArc& arc, int channel) {
   return out;
 }
 
-double clipped_correlation(Track a, Track b) {
-  if (a.size() < 3) return 0.0;
-  clip(a), clip(b);
-  const double ma = mean(a), mb = mean(b);
-  double aa = 0, bb = 0, ab = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    aa += (a[i] - ma) * (a[i] - ma), bb += (b[i] - mb) * (b[i] - mb), ab += (a[i] - ma) * (b[i] - mb);
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0;
+Track clipped_unit(Track x) {
+  if (x.size() < 3) return {};
+  const double low = quantile(x, 0.005), high = quantile(x, 0.995);
+  for (double& v : x) v = std::clamp(v, low, high);
+  const double middle = mean(x);
+  double square = 0;
+  for (double& v : x) v -= middle, square += v * v;
+  if (!(square > 0)) return {};
+  for (double& v : x) v /= std::sqrt(square);
+  return x;
+}
+
+double correlation(const Track& a, const Track& b) {
+  return a.empty() || b.empty() ? 0.0 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 Eigen::Matrix3d correlations(const Track3& seen, const Track3& told) {
+  Track3 s, t;
+  for (std::size_t k = 0; k < 3; ++k) s[k] = clipped_unit(seen[k]), t[k] = clipped_unit(told[k]);
   Eigen::Matrix3d c;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
-      c(i, k) = clipped_correlation(seen[static_cast<std::size_t>(i)], told[static_cast<std::size_t>(k)]);
+      c(i, k) = correlation(s[static_cast<std::size_t>(i)], t[static_cast<std::size_t>(k)]);
   return c;
 }
 

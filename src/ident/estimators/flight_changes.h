@@ -32,8 +32,12 @@ Track integral(const std::vector<double>& t, const Track& y);
 /// A channel of the arc without gaps; empty when nothing was sampled.
 Track channel_track(const FlightArc& arc, int channel);
 
-/// Pearson's correlation, outliers beyond the central 99 % pulled in; 0 when a side does not move.
-double clipped_correlation(Track a, Track b);
+/// A track with what lies beyond its central 99 % pulled in, its mean taken off and its length made one;
+/// empty when it does not move or is too short to say.
+Track clipped_unit(Track x);
+
+/// Pearson's correlation of two such; 0 when one is empty.
+double correlation(const Track& a, const Track& b);
 
 /// Correlation of each seen axis (row) with each told axis (column).
 Eigen::Matrix3d correlations(const Track3& seen, const Track3& told);

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "ident/core/parallel.h"
 #include "ident/estimators/flight_changes.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/statistics.h"
@@ -35,10 +37,11 @@ struct Hypothesis {
   double total() const { return agreement(0) + agreement(1) + agreement(2); }
 };
 
-/// Changes of the rates, and of the integral of Omega^2 and of Omega of each column.
+/// Changes of the rates, clipped, and of the integral of Omega^2 and of Omega of each column.
 struct Windows {
   Track3 rates;
   std::vector<Track> thrust, spin;
+  std::size_t count() const { return thrust[0].size(); }
 };
 
 /// Rotor speeds as measured or, when those are not asked for or not there, simulated from the commands.
@@ -67,13 +70,14 @@ Windows windows_at(const FlightRecord& record, const std::vector<std::vector<Tra
   const ChangeWindows windows = change_windows(lag, record.interval);
   const long rows = std::lround(shift * static_cast<double>(windows.margin));
   Windows out;
+  Track3 rates;
   out.thrust.resize(speeds[0].size()), out.spin.resize(speeds[0].size());
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
     Track3 w;
     for (std::size_t i = 0; i < arc.rows(); ++i)
       for (std::size_t k = 0; k < 3; ++k) w[k].push_back(arc.start[i].body.w_B[static_cast<Eigen::Index>(k)]);
-    append(out.rates, {changes(w[0], windows), changes(w[1], windows), changes(w[2], windows)});
+    append(rates, {changes(w[0], windows), changes(w[1], windows), changes(w[2], windows)});
     for (std::size_t n = 0; n < speeds[a].size(); ++n) {
       Track square = speeds[a][n];
       for (double& v : square) v *= v;
@@ -83,12 +87,13 @@ Windows windows_at(const FlightRecord& record, const std::vector<std::vector<Tra
       out.spin[n].insert(out.spin[n].end(), spin.begin(), spin.end());
     }
   }
+  for (std::size_t k = 0; k < 3; ++k) out.rates[k] = clipped_unit(std::move(rates[k]));
   return out;
 }
 
 std::array<double, 3> correlation_of(const Windows& windows, const Vehicle& vehicle,
                                      std::span<const double> p, const Order& order) {
-  const std::size_t count = windows.rates[0].size();
+  const std::size_t count = windows.count();
   const double sigma = vehicle.signs == Signs::first_principles ? 1.0 : -1.0;
   Track3 moment{Track(count, 0.0), Track(count, 0.0), Track(count, 0.0)};
   for (std::size_t n = 0; n < order.size(); ++n) {
@@ -103,13 +108,14 @@ std::array<double, 3> correlation_of(const Windows& windows, const Vehicle& vehi
                         by_spin[static_cast<Eigen::Index>(k)] * windows.spin[order[n]][i];
   }
   std::array<double, 3> r{};
-  for (std::size_t k = 0; k < 3; ++k) r[k] = clipped_correlation(windows.rates[k], moment[k]);
+  for (std::size_t k = 0; k < 3; ++k)
+    r[k] = correlation(windows.rates[k], clipped_unit(std::move(moment[k])));
   return r;
 }
 
 /// Spread of the whole thrust between windows over its mean.
 double thrust_variation(const Windows& windows, const std::vector<std::vector<Track>>& speeds, double lag) {
-  Track sum(windows.thrust[0].size(), 0.0), mean_square;
+  Track sum(windows.count(), 0.0), mean_square;
   for (const Track& one : windows.thrust)
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i];
   for (const std::vector<Track>& arc : speeds)
@@ -200,6 +206,29 @@ std::optional<Warning> finding(const std::vector<Hypothesis>& all, bool rates_co
                         : "correct the sign in a map file")};
 }
 
+/// The hypotheses over windows of one lag, the rates shifted by a share of the margin.
+struct Trial {
+  std::vector<Hypothesis> all;  ///< none: too few windows to judge
+  double most = -1;             ///< agreement of the best
+  double windows = 0, thrust_variation = 0;
+};
+constexpr std::array kLags = {0.04, 0.15};
+constexpr std::array kShifts = {0.0, -0.5, 0.5, 1.0};
+constexpr std::size_t kTrials = kLags.size() * kShifts.size();
+
+Trial trial(const FlightRecord& record, const std::vector<std::vector<Track>>& speeds, const Vehicle& vehicle,
+            std::span<const double> p, std::size_t number) {
+  const double lag = kLags[number / kShifts.size()];
+  const Windows windows = windows_at(record, speeds, lag, kShifts[number % kShifts.size()]);
+  Trial out;
+  out.windows = static_cast<double>(windows.count());
+  if (out.windows < kFewWindows) return out;
+  out.all = hypotheses(windows, vehicle, p);
+  out.most = std::ranges::max(out.all, {}, &Hypothesis::total).total();
+  out.thrust_variation = thrust_variation(windows, speeds, lag);
+  return out;
+}
+
 }  // namespace
 
 RotorAgreement test_rotors(const FlightRecord& record, const Vehicle& vehicle, std::span<const double> p,
@@ -211,21 +240,13 @@ RotorAgreement test_rotors(const FlightRecord& record, const Vehicle& vehicle, s
     if (measured ? !s.rotor_speeds : !s.commands) continue;
     std::vector<std::vector<Track>> speeds;
     for (const FlightArc& arc : record.arcs) speeds.push_back(rotor_speeds(arc, vehicle, p, measured));
-    std::vector<Hypothesis> best;
-    double top = -1;
-    for (const double lag : {0.04, 0.15})
-      for (const double shift : {0.0, -0.5, 0.5, 1.0}) {
-        const Windows windows = windows_at(record, speeds, lag, shift);
-        const auto count = static_cast<double>(windows.rates[0].size());
-        if (count < kFewWindows) continue;
-        const std::vector<Hypothesis> all = hypotheses(windows, vehicle, p);
-        const double most = std::ranges::max(all, {}, &Hypothesis::total).total();
-        if (most <= top) continue;
-        top = most, best = all, out.correlation = all[0].r, out.windows = count;
-        out.thrust_variation = thrust_variation(windows, speeds, lag);
-      }
-    if (best.empty()) continue;
-    if (const auto found = finding(best, rates_confirmed, measured ? "rotor speeds" : "commands"))
+    std::array<Trial, kTrials> trials;
+    in_parallel(trials.size(), [&](std::size_t i) { trials[i] = trial(record, speeds, vehicle, p, i); });
+    const Trial& best = *std::ranges::max_element(trials, {}, &Trial::most);
+    if (best.all.empty()) continue;
+    out.correlation = best.all[0].r, out.windows = best.windows;
+    out.thrust_variation = best.thrust_variation;
+    if (const auto found = finding(best.all, rates_confirmed, measured ? "rotor speeds" : "commands"))
       out.findings.push_back(*found);
   }
   return out;

@@ -2,10 +2,9 @@
 #include "ident/estimators/flight_smoother.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
+#include "ident/core/parallel.h"
 #include "ident/estimators/flight_chunk_maps.h"
 
 namespace ident {
@@ -32,7 +31,6 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
       noise_(std::move(noise)),
       chunk_seconds_(chunk_seconds),
       threads_(threads) {
-  if (threads_ <= 0) threads_ = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
     arc_begin_.push_back(places_.size());
@@ -78,14 +76,7 @@ void FlightSmoother::unlink() {
 }
 
 void FlightSmoother::in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const {
-  std::atomic<std::size_t> next{0};
-  const auto run = [&] {
-    for (std::size_t k = next++; k < count; k = next++) work(k);
-  };
-  std::vector<std::thread> crew;
-  for (int i = 1; i < threads_ && static_cast<std::size_t>(i) < count; ++i) crew.emplace_back(run);
-  run();
-  for (std::thread& t : crew) t.join();
+  ident::in_parallel(count, work, threads_);
 }
 
 ChunkTask FlightSmoother::task(std::size_t k, const VectorXd& u, const std::vector<double>& p,
