@@ -41,11 +41,13 @@ Result report_campaign(const Options& options, Context& context) {
 
 Action report_command(CLI::App& cli) {
   auto options = std::make_shared<Options>();
-  cli.add_option("--output", options->output,
-                 "where to write: .html, .md or .json; report.html and report.md without it")
-      ->type_name("FILE");
+  CLI::Option* output =
+      cli.add_option("--output", options->output,
+                     "where to write: .html, .md or .json; report.html and report.md without it")
+          ->type_name("FILE");
   cli.add_option("--vehicle", options->vehicle, "only list the parameters of a vehicle or parameter file")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->excludes(output);
   examples(cli, {{"ident report", "all results of the campaign in this folder, as report.html and report.md"},
                  {"ident report --vehicle falcon.yaml", "the parameters of a file as a table"}});
   return [options](Context& context) -> Outcome {

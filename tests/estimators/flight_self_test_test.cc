@@ -244,5 +244,18 @@ TEST(FlightSelfTest, RealFlightsUnderMotionCaptureHaveNothingAgainstTheirFrames)
   }
 }
 
+// Grams for kilograms, or a vehicle that stands on the ground with its rotors turning.
+TEST(FlightSelfTest, ThrustFarFromTheWeightIsNamed) {
+  const FlightLog log = clean_log(quad());
+  EXPECT_FALSE(names(findings(quad(), log), "thrust_weight"));
+  for (const double factor : {1000.0, 0.1}) {
+    Vehicle wrong = quad();
+    wrong.parameters["m"].value *= factor;
+    const std::vector<Warning> found = findings(wrong, log);
+    EXPECT_TRUE(names(found, "thrust_weight")) << in_words(found);
+    EXPECT_NE(disqualified(found), "");
+  }
+}
+
 }  // namespace
 }  // namespace ident

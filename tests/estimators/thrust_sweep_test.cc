@@ -263,5 +263,24 @@ TEST(ThrustLog, ADriftOfTheTareIsNamed) {
   EXPECT_TRUE(result.has_warning("tare_drift"));
 }
 
+// Where every row may be the odd one, none is taken for an outlier: leaving out one after the other ends with
+// a fit through what is left that nothing contradicts.
+TEST(ThrustSweep, AFewRowsAreAllKept) {
+  for (int rows = 3; rows <= 8; ++rows) {
+    NumberTable table = SweepTable().table();
+    drop_column(table, "torque");
+    table.line.resize(static_cast<std::size_t>(rows));
+    for (Column& column : table.columns) column.values.resize(static_cast<std::size_t>(rows));
+    for (int i = 0; i < rows; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      values(table, "omega")[row] = 100.0 * (i + 1);
+      values(table, "thrust")[row] = 6e-2 * (i + 1) * (i + 1) + (i % 3 - 1) * 0.01;
+    }
+    const Result result = estimate_thrust({table});
+    EXPECT_NEAR(result.find("kT")->value, 6e-6, 0.5e-6) << rows;
+    EXPECT_GT(result.find("kT")->std, 0) << rows;
+  }
+}
+
 }  // namespace
 }  // namespace ident

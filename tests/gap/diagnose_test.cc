@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "ident/core/error.h"
 #include "ident/io/vehicle_file.h"
@@ -217,6 +218,64 @@ TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {
   for (const auto& other : verdict["confused_with"]) named.push_back(other);
   std::ranges::sort(named);
   EXPECT_EQ(named, (std::vector<std::string>{"cg_offset", "payload"})) << verdict["sentence"];
+}
+
+// Logs without rates, or without attitude, are normal: states start far from their best there.
+TEST(Diagnosis, NothingIsFoundWithoutRatesOrAttitude) {
+  Vehicle model = published();
+  known_to(0.05, {"kT", "kQ", "km", "Jxx", "Jyy", "Jzz"}, model);
+  FlightLog no_rates = flight_of(published(), 3), no_attitude = no_rates;
+  for (auto& column : no_rates.w_B) column.clear();
+  for (auto& column : no_attitude.q_WB) column.clear();
+  EXPECT_EQ(verdict_of(model, no_rates)["status"], "none");
+  EXPECT_EQ(verdict_of(model, no_attitude)["status"], "none");
+}
+
+TEST(Diagnosis, HoverAloneTellsNoCause) {
+  Vehicle model = published();
+  known_to(0.05, {"kT", "kQ", "km", "Jxx", "Jyy", "Jzz", "omega_m"}, model);
+  FlightLog still = flight_of(published(), 4);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise;
+  const auto shake = [&](auto& columns, double sigma) {
+    for (auto& column : columns)
+      for (double& x : column) x += sigma * noise(random);
+  };
+  const double level =
+      std::sqrt(model.value("m") * model.g / (4 * model.value("kT") * std::cos(slant_angle(model)))) /
+      model.value("km");
+  for (auto& column : still.delta) column.assign(column.size(), level);
+  for (auto& column : still.Omega) column.assign(column.size(), level * model.value("km"));
+  for (std::size_t k = 0; k < 3; ++k) {
+    still.w_B[k].assign(still.t.size(), 0.0), still.v_W[k].assign(still.t.size(), 0.0);
+    still.f_B[k].assign(still.t.size(), k == 2 ? -model.g : 0.0);
+    still.x_W[k].assign(still.t.size(), k == 2 ? -2.0 : 0.0);
+  }
+  for (std::size_t k = 0; k < 4; ++k) still.q_WB[k].assign(still.t.size(), k == 0 ? 1.0 : 0.0);
+  shake(still.w_B, 0.01), shake(still.f_B, 0.1), shake(still.v_W, 0.01), shake(still.x_W, 0.002);
+  shake(still.Omega, 2.0);
+  const auto verdict = verdict_of(model, still);
+  EXPECT_NE(verdict["status"], "identified") << verdict;
+  EXPECT_NE(verdict["status"], "ambiguous") << verdict;
+}
+
+TEST(Diagnosis, ACauseThatIsNoneCannotBeLeftOut) {
+  GapOptions options;
+  options.exclude = {"rotor_darg"};
+  const std::vector<FlightLog> logs{flight_of(published(), 1)};
+  EXPECT_THROW(diagnose_gap(published(), logs, options), UsageError);
+}
+
+// The slant angle that was fitted is that of the rotors that are written.
+TEST(Diagnosis, TheModelWithTheCauseHasTheSlantThatWasFitted) {
+  Vehicle model = published();
+  model.parameters["alpha"].value += 0.02, model.parameters["alpha"].std = 0.02;
+  for (Rotor& rotor : model.rotors) rotor.a_B = axis_at(rotor, slant_angle(model));
+  const std::vector<FlightLog> logs{flight_of(published(), 5)};
+  const Vehicle adopted = diagnose_gap(model, logs).adopted;
+  EXPECT_NEAR(slant_angle(adopted), slant_angle(published()), 0.005);
+  for (std::size_t n = 0; n < 4; ++n)
+    EXPECT_LT((adopted.rotors[n].a_B - axis_at(adopted.rotors[n], slant_angle(adopted))).norm(), 1e-12);
 }
 
 }  // namespace

@@ -86,5 +86,24 @@ TEST(Flight, EveryEffectDoesNothingAtItsNullValue) {
   }
 }
 
+// What turns the vehicle from outside is a moment: products of inertia couple it to the other axes.
+TEST(Flight, GustsTurnAsMomentsDo) {
+  Vehicle v = small_quad();
+  v.parameters["Jxz"] = {4e-4, {}}, v.parameters["Jyz"] = {-3e-4, {}};
+  const std::vector<double> p = parameter_vector(v);
+  const NoEffects none;
+  const Body<double> body(v, p, none);
+  const BodyState<double> state{Vec4<double>(1, 0, 0, 0), Vec3<double>(0.3, -0.2, 0.5), Vec3<double>::Zero(),
+                                Vec3<double>(0, 0, -1)};
+  const std::vector<MotorState<double>> motors(4, {400.0, 0.0});
+  Disturbance<double> gust;
+  gust.w_dot_B = {0.7, -1.1, 0.4};
+  const Vec3<double> turned =
+      body.rate(state, std::span(motors), &gust).w_dot_B - body.rate(state, std::span(motors)).w_dot_B;
+  const Vec3<double> moment = body.J().diagonal().cwiseProduct(gust.w_dot_B);
+  EXPECT_LT((body.J() * turned - moment).norm(), 1e-12);
+  EXPECT_GT(std::abs(turned[2] - gust.w_dot_B[2]), 0.01);
+}
+
 }  // namespace
 }  // namespace ident

@@ -15,6 +15,7 @@ constexpr double kSlowest = 1.0 / 49.0;   ///< s between rows
 constexpr double kSaturatedShare = 0.02;  ///< of the rows
 constexpr double kToTell = 10.0;          ///< standard errors of a slope: an inertia to 10 %
 constexpr double kSteadyThrust = 0.01;    ///< spread over mean
+constexpr double kFarOff = 4.0;           ///< thrust over weight, or weight over thrust
 
 void test_excitation(const RotorAgreement& rotors, std::vector<Warning>& findings) {
   if (rotors.windows == 0) return;
@@ -34,6 +35,31 @@ void test_excitation(const RotorAgreement& rotors, std::vector<Warning>& finding
                         fmt::format("{}: the commands hardly turn the vehicle about it: its inertia and what "
                                     "acts about it cannot be told; add doublets or a multisine there",
                                     fmt::join(still, ", "))});
+}
+
+/// Thrust of the rotors as stated over the weight, in the mean of the flight.
+double thrust_over_weight(const FlightRecord& record, double gravity, std::span<const double> p) {
+  double sum = 0, rows = 0;
+  for (const FlightArc& arc : record.arcs)
+    for (const FlightState<double>& x : arc.start) {
+      for (int n = 0; n < record.layout.rotors; ++n)
+        sum += std::pow(x.motors[static_cast<std::size_t>(n)].Omega, 2);
+      rows += 1;
+    }
+  return p[param::kT] * sum / (rows * p[param::m] * gravity);
+}
+
+void test_weight(const FlightRecord& record, double gravity, std::span<const double> p,
+                 std::vector<Warning>& findings) {
+  if (!record.signals.commands) return;  // measured speeds alone are no state of a row
+  const double ratio = thrust_over_weight(record, gravity, p);
+  if (ratio > 1 / kFarOff && ratio < kFarOff) return;
+  findings.push_back(
+      {"thrust_weight",
+       fmt::format("the rotors as stated lift {:.2g} times the weight in the mean of these logs: the mass "
+                   "or kT or km is in other units, the commands are not what they are said to be, or the "
+                   "vehicle stood on the ground",
+                   ratio)});
 }
 
 /// Rows in flight of which a command stands at its limit.
@@ -85,13 +111,14 @@ std::vector<Warning> self_test(const FlightRecord& record, std::span<const Fligh
     findings = rotors.findings;
     if (findings.empty()) test_excitation(rotors, findings);
   }
+  test_weight(record, vehicle.g, p, findings);
   test_health(record, logs, findings);
   return findings;
 }
 
 std::string disqualified(const std::vector<Warning>& warnings) {
   for (const Warning& w : warnings)
-    for (const char* code : {"wrong_frame", "sign_flipped", "axes_swapped", "motor_order"})
+    for (const char* code : {"wrong_frame", "sign_flipped", "axes_swapped", "motor_order", "thrust_weight"})
       if (w.code == code)
         return w.code + ": " + w.message + ". Until that is put right no number of this log can be trusted.";
   return {};

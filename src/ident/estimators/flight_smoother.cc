@@ -204,10 +204,15 @@ void FlightSmoother::accept() {
   accepted_ = trial_elimination_;
 }
 
+// Ends before the last round where one has changed nothing to speak of.
 void FlightSmoother::settle(const VectorXd& u, int rounds) {
+  constexpr double kSettled = 1e-4;  // of the cost
+  double before = 0;
   for (int i = 0; i < rounds; ++i) {
-    linearize(u);
+    const double cost = linearize(u).cost;
     accept();
+    if (i > 0 && std::abs(before - cost) < kSettled * cost) return;
+    before = cost;
   }
 }
 

@@ -8,6 +8,8 @@
 namespace ident {
 namespace {
 
+constexpr int kRounds = 30;  // until states are at their best: many where no rates or attitude were logged
+
 // The rows [begin, end) of an arc as an arc of its own, with the gyro bias taken off.
 FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const std::array<double, 3>& bias) {
   FlightArc out = arc.piece(begin, end);
@@ -49,7 +51,7 @@ FlightWindows::FlightWindows(const FlightRecord& record, const Theta& theta, con
   fixed_ = std::make_unique<Theta>(p_, std::vector<FreeConstant>{}, 1, false);
   smoother_ = std::make_unique<FlightSmoother>(
       past_, *fixed_, noise, std::clamp(chunk_for(record, noise), 0.04, 0.4), options.threads);
-  smoother_->settle(Eigen::VectorXd(0), 2);
+  smoother_->settle(Eigen::VectorXd(0), kRounds);
   ends_ = smoother_->arc_ends();
 }
 

@@ -16,6 +16,7 @@ namespace ident {
 namespace {
 
 constexpr int kMostRounds = 12;
+constexpr int kFewestBeyond = 3;  // rows beyond the unknowns that outliers leave
 
 double square(double v) { return v * v; }
 
@@ -210,7 +211,7 @@ class Fitter {
                           backwards = prediction_errors(rows, true);
     const double used = static_cast<double>(std::ranges::count(rejected_, false));
     const double all = static_cast<double>(rejected_.size());
-    bool changed = false;
+    const std::vector<bool> before = rejected_;
     for (const ResidualSeries& s : problem_.series) {
       const NoiseGroup& group = problem_.groups[static_cast<std::size_t>(s.group)];
       if (!group.may_have_outliers || !s.may_have_outliers) continue;
@@ -220,12 +221,13 @@ class Fitter {
       for (Eigen::Index i = s.begin; i < s.end; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const double error = std::min(std::fabs(forwards(i)), std::fabs(backwards(i)));
-        const bool outlier = deletion_t(error, leverage(i), dof, rejected_[k]) > cut;
-        changed = changed || outlier != rejected_[k];
-        rejected_[k] = outlier;
+        rejected_[k] = deletion_t(error, leverage(i), dof, before[k]) > cut;
       }
     }
-    return changed;
+    // What is left has to tell the unknowns and a level of noise: of three rows each may be the odd one.
+    if (std::ranges::count(rejected_, false) < rows.J.cols() + kFewestBeyond)
+      rejected_.assign(rejected_.size(), false);
+    return rejected_ != before;
   }
 
   void solve(Effort effort) {

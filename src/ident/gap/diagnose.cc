@@ -2,11 +2,15 @@
 #include "ident/gap/diagnose.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/nearest_word.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
@@ -97,6 +101,16 @@ Json candidates_json(const SearchResult& search, const GapClosed& gap) {
   return out;
 }
 
+void require_known(const std::vector<std::string>& causes) {
+  std::vector<std::string> known;
+  for (const EffectEntry& effect : catalogue()) known.emplace_back(effect.info.name);
+  for (const ParameterInfo& parameter : all_parameters())
+    if (parameter.name.find('.') == std::string::npos) known.push_back("parameter:" + parameter.name);
+  for (const std::string& cause : causes)
+    if (std::ranges::find(known, cause) == known.end())
+      throw UsageError(fmt::format("no cause '{}' to leave out{}", cause, did_you_mean(cause, known)));
+}
+
 Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
   Vehicle out = vehicle;
   const Theta& theta = *model.theta;
@@ -105,6 +119,7 @@ Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
     out.parameters[name] = {theta.physical(model.fit.u, i),
                             theta.deviation(model.fit.u, i, model.fit.covariance)};
   }
+  for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
   return out;
 }
 
@@ -115,6 +130,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Result& result = out.result;
   result.schema = "ident.gap/1";
   result.command = "gap";
+  require_known(options.exclude);
   const auto [p, record, tested] = enter_flight(vehicle, logs, result);
   require_turning(record.signals);
   SearchOptions search_options{options.exclude, options.most_causes, options.progress};
@@ -162,6 +178,15 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.parameters = flight_parameters(best, search.best.fit, "gap");
   Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   const std::string wrong = disqualified(tested);
+  if (std::ranges::find(tested, "hover_only", &Warning::code) != tested.end() && !verdict.effects.empty()) {
+    verdict.status = "unknown";
+    verdict.sentence = fmt::format(
+        "The nearest is {}, but these logs hold little more than hover, and that tells no cause: fly "
+        "doublets "
+        "or a multisine about every axis.",
+        fmt::join(verdict.effects, " with "));
+    verdict.confused_with = std::exchange(verdict.effects, {});
+  }
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},

@@ -16,6 +16,7 @@ using Eigen::VectorXd;
 constexpr double kChunk = 0.2;   // s: features are slow
 constexpr double kPiece = 0.04;  // s: motors are fast
 constexpr double kPart = 4.0;    // s
+constexpr int kRounds = 30;  // until states are at their best: many where no rates or attitude were logged
 constexpr Index kMotorFeatures = 5;
 constexpr int kLeast = 1000;    // samples of a sensor that can be judged
 constexpr double kGross = 6.0;  // residuals of a sensor count up to this
@@ -197,7 +198,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   Rival rival;
   FlightSmoother smoother(record, theta, floor, std::max(fit.chunk_seconds, kChunk));
   if (smoother.chunks().size() < 60) return rival;
-  smoother.settle(fit.u, 2);
+  smoother.settle(fit.u, kRounds);
   smoother.linearize(fit.u);
   smoother.accept();
   const std::vector<double> p = theta.p(fit.u);

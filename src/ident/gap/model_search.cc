@@ -17,6 +17,8 @@ namespace {
 // the right form gets names otherwise.
 constexpr int kOften = 2;
 constexpr double kMaterial = 0.04;
+constexpr double kUneven = 5.0;
+constexpr double kNextToNothing = 0.01;
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
 constexpr std::size_t kTrials = 2;
@@ -164,13 +166,16 @@ class Search {
   }
 
   // Whether a third or further cause explains its share; one in the vehicle is measured against others there.
+  // What a second one that changes from one part of the flight to the next gains beside a strong one is that
+  // one's form; but two that move masses may be one payload.
   bool is_material(const Further& next) const {
-    if (static_cast<int>(out_.steps.size()) < kOften) return true;
     const bool mounting = is_of_mounting(candidate(next.candidate).name);
     double found = 0;
     for (const SearchStep& s : out_.steps)
       if (mounting || !is_of_mounting(s.name)) found += s.gain;
-    return next.honest() >= kMaterial * found;
+    if (static_cast<int>(out_.steps.size()) >= kOften) return next.honest() >= kMaterial * found;
+    return moves_mass(candidate(next.candidate)) || next.stretch < kUneven ||
+           next.honest() >= kNextToNothing * found;
   }
 
   // One payload in place of all causes that move masses, `next` among them.

@@ -83,6 +83,23 @@ double least_of(const Candidate& candidate, const ExtendedProblem& problem, cons
   return candidate.mass_for_shift * shift / scale(0);
 }
 
+// Gusts seldom push where the centre of gravity is. How far above the origin they do is a nuisance of every
+// model here: turns that go with pushes would else pass for a sensor, or a whole vehicle, that sits
+// elsewhere. The turning accelerations of chunk k over that height, in units of a usual one.
+std::vector<MatrixXd> gust_arm(const FlightRecord& record, const FlightSmoother& smoother,
+                               const std::vector<double>& p) {
+  if (record.layout.w_dot < 0 || record.layout.v_dot < 0) return {};
+  std::vector<MatrixXd> profiles;
+  for (const FlightState<double>& x : smoother.states()) {
+    const Eigen::Vector3d push_B = rotation(x.body.q_WB).transpose() * x.outside.v_dot;
+    MatrixXd P = MatrixXd::Zero(6, 1);
+    const double h = kGustArm * payload_reach(*record.vehicle) * p[param::m];
+    P(0, 0) = h * push_B[1] / p[param::Jxx], P(1, 0) = -h * push_B[0] / p[param::Jyy];
+    profiles.push_back(P);
+  }
+  return profiles;
+}
+
 }  // namespace
 
 QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,
@@ -99,6 +116,8 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   u.tail(biases) = fit.u.tail(biases);
   smoother.linearize(u);  // the states are at their best already
   smoother.retune(10);
+  smoother.set_profiles(gust_arm(record, smoother, theta.p(u)));
+  smoother.relinearize();
   const ReducedSystem& system = smoother.reduced();
   smoother.accept();
   form.noise = smoother.noise();
@@ -108,9 +127,10 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   form.base = problem.base;
   form.constants = theta.constants_count();
   const PriorTerms prior = theta.prior(u);
-  form.prior_info = prior.slope.cwiseAbs2();
-  form.prior_g = prior.slope.cwiseProduct(prior.residual);
-  form.null = VectorXd::Zero(theta.size());
+  const Eigen::Index all = form.g.size(), own = theta.size();
+  form.prior_info = VectorXd::Ones(all), form.prior_g = form.null = VectorXd::Zero(all);
+  form.prior_info.head(own) = prior.slope.cwiseAbs2();
+  form.prior_g.head(own) = prior.slope.cwiseProduct(prior.residual);
   for (int i = 0; i < form.constants; ++i) {
     const FreeConstant& c = constants[static_cast<std::size_t>(i)];
     const std::size_t dot = c.name.find('.');
@@ -120,7 +140,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   // Variance of the scores over blocks, each projected on the base, over what white residuals would give.
   std::vector<MatrixXd> information;
   const std::vector<ScoreBlock> blocks = smoother.score_blocks(2.0);
-  MatrixXd scores(theta.size(), static_cast<Eigen::Index>(blocks.size()));
+  MatrixXd scores(all, static_cast<Eigen::Index>(blocks.size()));
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     scores.col(static_cast<Eigen::Index>(b)) = blocks[b].score;
     information.push_back(blocks[b].information);
@@ -128,7 +148,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   if (scores.cols() < 8) return form;
   const std::vector<int> base = base_unknowns(form, problem);
   const auto m = static_cast<Eigen::Index>(base.size());
-  MatrixXd M(m, m), C(m, theta.size());
+  MatrixXd M(m, m), C(m, all);
   for (Eigen::Index a = 0; a < m; ++a) {
     const int i = base[static_cast<std::size_t>(a)];
     for (Eigen::Index b = 0; b < m; ++b) M(a, b) = form.S(i, base[static_cast<std::size_t>(b)]);
@@ -136,7 +156,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
     C.row(a) = form.S.row(i);
   }
   const MatrixXd project = Eigen::LDLT<MatrixXd>(M).solve(C);
-  MatrixXd P = MatrixXd::Identity(theta.size(), form.constants);
+  MatrixXd P = MatrixXd::Identity(all, form.constants);
   for (int i = 0; i < form.constants; ++i)
     for (Eigen::Index a = 0; a < m; ++a)
       if (base[static_cast<std::size_t>(a)] != i) P(base[static_cast<std::size_t>(a)], i) -= project(a, i);

@@ -6,8 +6,11 @@
 
 namespace ident {
 
-/// cost(d) = cost0 + 2 g'd + d'S d over the extended unknowns d (gyro biases last), priors of the base not
-/// included.
+/// Unit of the height at which gusts push, as a share of the farthest that anything bolted on can be.
+inline constexpr double kGustArm = 0.1;
+
+/// cost(d) = cost0 + 2 g'd + d'S d over the extended unknowns d (after the constants gyro biases, and how far
+/// above the origin gusts push), priors of the base not included.
 struct QuadraticForm {
   double cost0 = 0.0;
   Eigen::VectorXd g, prior_g, prior_info,

@@ -17,6 +17,8 @@ constexpr double kSlowestLog = 0.5;   // s between rows; slower is a log in othe
 constexpr double kLongGap = 10.0;     // times the usual step
 constexpr double kShortestGap = 0.1;  // s
 constexpr std::size_t kFewRows = 20;  // too few to judge
+constexpr double kDropOut = 0.3;      // s at zero between turning and turning: no rotor stops for so short
+constexpr double kTurns = 0.3;        // of the median
 
 std::optional<double> median(std::vector<double> values) {
   std::erase_if(values, [](double v) { return std::isnan(v); });
@@ -92,6 +94,55 @@ void drop_held(FlightLog& log, Components sensor, const std::string& name) {
        fmt::format("{}: {}: {:.0f} % of the rows only repeat the row before; they count as not "
                    "sampled",
                    log.file, name, 100.0 * share)});
+}
+
+namespace {
+
+/// Zeros for a short time between samples of a rotor that turns, made NaN; gives their number.
+std::size_t drop_zeros(const std::vector<double>& t, std::vector<double>& Omega) {
+  const double turning = kTurns * median(Omega).value_or(0.0);
+  std::size_t dropped = 0, last = Omega.size();  // last: sample of the turning rotor
+  for (std::size_t i = 0; i < Omega.size(); ++i) {
+    if (std::isnan(Omega[i]) || Omega[i] == 0.0) continue;
+    if (last < i && Omega[last] > turning && Omega[i] > turning && t[i] - t[last] < kDropOut)
+      for (std::size_t k = last + 1; k < i; ++k)
+        if (Omega[k] == 0.0) Omega[k] = kNaN, ++dropped;
+    last = i;
+  }
+  return dropped;
+}
+
+}  // namespace
+
+void check_rotor_speeds(FlightLog& log, Components Omega) {
+  std::size_t negative = 0, dropped = 0;
+  for (std::vector<double>& speed : Omega) {
+    negative += std::ranges::any_of(speed, [](double v) { return v < 0; });
+    for (double& v : speed) v = std::abs(v);
+    dropped += drop_zeros(log.t, speed);
+  }
+  if (negative > 0)
+    log.warnings.push_back(
+        {"rotor_speed_sign",
+         fmt::format("{}: {} of {} rotor speeds are negative: their sizes are taken; which way a rotor turns "
+                     "stands in the vehicle file",
+                     log.file, negative, Omega.size())});
+  if (dropped > 0)
+    log.warnings.push_back({"rotor_speed_dropouts",
+                            fmt::format("{}: rotor speeds drop to zero for a moment in {} samples: those "
+                                        "count as not sampled",
+                                        log.file, dropped)});
+  for (std::size_t n = 0; n < Omega.size(); ++n) {
+    const std::vector<std::size_t> rows = rows_of(Omega.subspan(n, 1));
+    if (rows.size() < kFewRows ||
+        !std::ranges::all_of(rows, [&](std::size_t i) { return Omega[n][i] == Omega[n][rows[0]]; }))
+      continue;
+    remove(Omega);
+    log.warnings.push_back(
+        {"constant_signal",
+         fmt::format("{}: omega{}: never changes; rotor speeds are taken as not measured", log.file, n + 1)});
+    return;
+  }
 }
 
 void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {

@@ -18,6 +18,10 @@ void drop_constant(FlightLog& log, Components sensor, const std::string& name);
 /// Makes NaN what a log repeats between two samples of a slower sensor (warning `held_samples`).
 void drop_held(FlightLog& log, Components sensor, const std::string& name);
 
+/// Rotor speeds as sizes (warning `rotor_speed_sign` where some were negative), short drop-outs to zero as
+/// not sampled (`rotor_speed_dropouts`), and none at all where one of them never changes (`constant_signal`).
+void check_rotor_speeds(FlightLog& log, Components Omega);
+
 /// A sensor under the name by which people know it.
 struct NamedSensor {
   std::string name;

@@ -138,7 +138,7 @@ class Builder {
       if (values.empty()) return;
       Omega.push_back(std::move(values));
     }
-    if (!Omega.empty()) drop_constant(log_, Omega, "omega");
+    if (!Omega.empty()) check_rotor_speeds(log_, Omega);
     if (!Omega.empty() && !Omega.front().empty()) log_.Omega = std::move(Omega);
   }
 

@@ -34,7 +34,8 @@ struct BodyState {
 enum class GustAxes { world, body };
 
 /// Accelerations that nothing in the model explains, gusts mostly: constant over a piece of flight. They add
-/// to (5) and (6), so that an accelerometer feels them.
+/// to (5) and (6), so that an accelerometer feels them. What turns the vehicle is a moment: `w_dot_B` is what
+/// it makes of the moments of inertia alone, and products of inertia couple it to the other axes.
 template <class S>
 struct Disturbance {
   Vec3<S> w_dot_B{S(0.0), S(0.0), S(0.0)}, v_dot{S(0.0), S(0.0), S(0.0)};
@@ -228,8 +229,10 @@ class Body {
     BodyRate<S> out;
     Vec3<S> M = total.M_B - cross(w, times(J_, w));
     if (off_centre_) M -= cross(c_B_, total.F_B);
+    if (outside && !diagonal_)
+      for (int i = 0; i < 3; ++i) M[i] = M[i] + J_(i, i) * outside->w_dot_B[i];
     out.w_dot_B = times(J_inverse_, M);  // (5)
-    if (outside) out.w_dot_B += outside->w_dot_B;
+    if (outside && diagonal_) out.w_dot_B += outside->w_dot_B;
     for (int i = 0; i < 3; ++i) out.f_B[i] = total.F_B[i] * m_inverse_;  // (6)
     if (off_centre_) out.f_B -= cross(out.w_dot_B, c_B_) + cross(w, cross(w, c_B_));
     if (outside && outside->axes == GustAxes::world)

@@ -123,7 +123,8 @@ class FlightLoop {
     if (has_battery()) discharge(t + interval);
     if (options_.turbulence > 0) {
       air_.step(interval);
-      plant_.disturb(air_.F_B(), air_.M_B());
+      const Vec3<double> push_B = air_.F_B(), at_B(0.0, 0.0, -options_.gust_arm);
+      plant_.disturb(push_B, air_.M_B() + cross(at_B, push_B));
     }
   }
 
