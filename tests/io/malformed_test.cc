@@ -54,6 +54,7 @@ Seen from_log(const FlightLog& log) {
   take(log.f_B, {"ax", "ay", "az"});
   take(log.q_WB, {"qw", "qx", "qy", "qz"});
   take(log.v_W, {"vx", "vy", "vz"});
+  if (log.Omega.size() == 4) take(log.Omega, {"omega1", "omega2", "omega3", "omega4"});
   if (log.delta.size() == 4) take(log.delta, {"delta1", "delta2", "delta3", "delta4"});
   return seen;
 }

@@ -115,6 +115,7 @@ std::size_t drop_zeros(const std::vector<double>& t, std::vector<double>& Omega)
 }  // namespace
 
 void check_rotor_speeds(FlightLog& log, Components Omega) {
+  if (rows_of(Omega).empty()) return remove(Omega);
   std::size_t negative = 0, dropped = 0;
   for (std::vector<double>& speed : Omega) {
     negative += std::ranges::any_of(speed, [](double v) { return v < 0; });
