@@ -33,10 +33,12 @@ Further further(const Standing& at, const std::vector<int>& have, int candidate)
           set.signs && !set.sizes && degrees >= 1};
 }
 
-std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& vehicle,
-                                    const std::vector<std::string>& exclude, const Standing& at_now,
-                                    int chosen, const FlightFitOptions& options) {
-  std::vector<int> with = at_now.have;
+namespace {
+
+// A cause in full beside some of those that the model has; the others go.
+std::optional<InFull> tried_beside(const FlightRecord& record, const Vehicle& vehicle,
+                                   const std::vector<std::string>& exclude, const Standing& at_now,
+                                   std::vector<int> with, int chosen, const FlightFitOptions& options) {
   with.push_back(chosen);
   FittedModel model = with_causes(record, vehicle, at_now, with, options);
   if (!stands(model)) return {};
@@ -48,6 +50,14 @@ std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& v
   std::erase(others, own[0]);
   out.own = further(out.at, others, own[0]);
   return out;
+}
+
+}  // namespace
+
+std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& vehicle,
+                                    const std::vector<std::string>& exclude, const Standing& at_now,
+                                    int chosen, const FlightFitOptions& options) {
+  return tried_beside(record, vehicle, exclude, at_now, at_now.have, chosen, options);
 }
 
 bool moves_mass(const Candidate& cause) {
@@ -62,14 +72,18 @@ bool is_of_mounting(const std::string& cause) {
 bool is_lag(const std::string& cause) { return cause == "parameter:omega_m" || cause == "parameter:zeta_m"; }
 
 std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle& vehicle,
-                                      const std::vector<std::string>& exclude, const Standing& before,
+                                      const std::vector<std::string>& exclude, const Standing& from,
                                       const std::vector<Candidate>& instead_of,
                                       const FlightFitOptions& options) {
-  const auto payload = std::ranges::find(before.problem.candidates, "payload", &Candidate::name);
-  if (payload == before.problem.candidates.end()) return {};
-  const int place = static_cast<int>(payload - before.problem.candidates.begin());
-  if (std::ranges::find(before.have, place) != before.have.end()) return {};
-  std::optional<InFull> trial = tried_in_full(record, vehicle, exclude, before, place, options);
+  const auto payload = std::ranges::find(from.problem.candidates, "payload", &Candidate::name);
+  if (payload == from.problem.candidates.end()) return {};
+  const int place = static_cast<int>(payload - from.problem.candidates.begin());
+  if (std::ranges::find(from.have, place) != from.have.end()) return {};
+  std::vector<int> others = from.have;
+  std::erase_if(others,
+                [&](int c) { return moves_mass(from.problem.candidates[static_cast<std::size_t>(c)]); });
+  std::optional<InFull> trial =
+      tried_beside(record, vehicle, exclude, from, std::move(others), place, options);
   if (!trial) return {};
   for (const int c : places_of(instead_of, trial->at.problem))
     if (further(trial->at, trial->at.have, c).passes()) return {};

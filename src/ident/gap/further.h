@@ -47,10 +47,10 @@ bool is_of_mounting(const std::string& cause);
 /// One of the two constants of the motors' lag stated wrongly: they are one thing.
 bool is_lag(const std::string& cause);
 
-/// Two causes that move masses may be one payload, which shows its inertia only where it acts: tried from
-/// `before`, where neither was in the model. None unless it stands and none of `instead_of` gains beside it.
+/// Two causes that move masses may be one payload, which shows its inertia only where it acts: tried at
+/// `from`, without those of them that it has. None unless it stands and none of `instead_of` gains beside it.
 std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle& vehicle,
-                                      const std::vector<std::string>& exclude, const Standing& before,
+                                      const std::vector<std::string>& exclude, const Standing& from,
                                       const std::vector<Candidate>& instead_of,
                                       const FlightFitOptions& options);
 

@@ -2,6 +2,7 @@
 #include "ident/gap/model_search.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -184,34 +185,21 @@ class Search {
     tell(0.1, "payload");
     std::vector<Candidate> moving{next};
     std::ranges::copy_if(now_.model.adopted, std::back_inserter(moving), moves_mass);
-    std::vector<int> others = now_.have;
-    std::erase_if(others, [&](int c) { return moves_mass(candidate(c)); });
-    if (others.size() > before_mass_->have.size()) return payload_beside(others, moving);
-    auto payload = payload_instead(record_, vehicle_, options_.exclude, *before_mass_, moving, fit_);
+    // What else was found since stays.
+    const auto others = std::ranges::count_if(now_.model.adopted, std::not_fn(moves_mass));
+    const bool since = others > static_cast<std::ptrdiff_t>(before_mass_->have.size());
+    auto payload =
+        payload_instead(record_, vehicle_, options_.exclude, since ? now_ : *before_mass_, moving, fit_);
     before_mass_.reset();
     if (!payload) return false;
+    if (since) {
+      move_to(std::move(payload->at));
+      return true;
+    }
     out_.steps.resize(steps_before_mass_);
     const double gain = payload->own.honest();
     out_.steps.push_back({"payload", gain});
     now_ = std::move(payload->at);
-    return true;
-  }
-
-  // The same where other causes were found since: they stay.
-  bool payload_beside(std::vector<int> others, const std::vector<Candidate>& instead_of) {
-    before_mass_.reset();
-    const auto payload = std::ranges::find(now_.problem.candidates, "payload", &Candidate::name);
-    const int place = static_cast<int>(payload - now_.problem.candidates.begin());
-    if (payload == now_.problem.candidates.end() || std::ranges::find(others, place) != others.end())
-      return false;
-    others.push_back(place);
-    FittedModel model = with_causes(record_, vehicle_, now_, others, fit_);
-    if (!stands(model)) return false;
-    Standing there = at(std::move(model));
-    if (there.have.size() != others.size()) return false;
-    for (const int c : places_of(instead_of, there.problem))
-      if (further(there, there.have, c).passes()) return false;
-    move_to(std::move(there));
     return true;
   }
 
