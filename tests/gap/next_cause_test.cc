@@ -47,5 +47,28 @@ TEST(NextCause, OfThoseThatPassTheOneWithMostEvidenceIsBest) {
   EXPECT_EQ(next_cause(at, kAny, {}).best.candidate, 0);
 }
 
+Further gaining(double gain, double stretch) {
+  Further f;
+  f.gain = gain * stretch, f.stretch = stretch;
+  return f;
+}
+
+TEST(NextCause, AThirdOneExplainsItsShareOrIsABenchValueWrongByTheSameEverywhere) {
+  const Candidate wrong{"parameter:omega_m", {}, 3}, effect{"gyroscopic", {4}};
+  EXPECT_TRUE(is_material(gaining(410, 1.0), effect, 2, 1e4));
+  EXPECT_FALSE(is_material(gaining(390, 1.0), effect, 2, 1e4));
+  EXPECT_TRUE(is_material(gaining(390, 1.0), wrong, 2, 1e4));
+  EXPECT_FALSE(is_material(gaining(390, 2.0), wrong, 2, 1e4));
+  EXPECT_FALSE(is_material(gaining(90, 1.0), wrong, 2, 1e4));
+}
+
+TEST(NextCause, ASecondOneThatChangesExplainsMoreThanNextToNothing) {
+  const Candidate effect{"gyroscopic", {4}}, moves{"cg_offset", {5, 6, 7}};
+  EXPECT_TRUE(is_material(gaining(90, 4.0), effect, 1, 1e4));
+  EXPECT_FALSE(is_material(gaining(90, 6.0), effect, 1, 1e4));
+  EXPECT_TRUE(is_material(gaining(110, 6.0), effect, 1, 1e4));
+  EXPECT_TRUE(is_material(gaining(90, 6.0), moves, 1, 1e4));
+}
+
 }  // namespace
 }  // namespace ident

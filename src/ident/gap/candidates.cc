@@ -41,6 +41,10 @@ class Builder {
   ExtendedProblem& problem_;
 };
 
+// A centre of gravity shifted along z alone turns the vehicle where something pushes from the side, as any
+// gust does that pushes above it: more than this share of a payload's reach is taken for that.
+constexpr double kHighest = 0.05;
+
 }  // namespace
 
 double payload_reach(const Vehicle& vehicle) {
@@ -127,6 +131,10 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
       build.effect(name, names, e.parameters.size() == 1 && e.parameters[0].range == Range::positive);
     }
   }
+  for (Candidate& c : problem.candidates)
+    for (const int i : c.directions)
+      if (problem.constants[static_cast<std::size_t>(i)].name == "cg_offset.z")
+        c.height = i, c.highest = kHighest * payload_reach(vehicle);
   return problem;
 }
 

@@ -18,6 +18,9 @@ struct Candidate {
   bool positive = false;        ///< its first direction has a physical sign
   /// Of a payload to first order: mass that it has at least for a shift of the centre of gravity, kg/m.
   double mass_for_shift = 0.0;
+  /// The unknown of a centre of gravity's shift along z, and how far that may be, m; -1 where it has none.
+  int height = -1;
+  double highest = 0.0;
 };
 
 /// Base constants followed by the directions of every effect, and the candidates over them.

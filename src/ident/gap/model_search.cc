@@ -14,14 +14,9 @@
 namespace ident {
 namespace {
 
-// The third and further causes have to explain this share of what was found: what is left of causes of nearly
-// the right form gets names otherwise.
-constexpr int kOften = 2;
-constexpr double kMaterial = 0.04;
-constexpr double kUneven = 5.0;
-constexpr double kNextToNothing = 0.01;
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
+constexpr int kOften = 2;
 constexpr std::size_t kTrials = 2;
 // Causes found that are no more probable than this among all sets are exchanged, so often.
 constexpr double kHardly = 0.3;
@@ -135,7 +130,7 @@ class Search {
     if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried_.size() < kTrials) {
       if (try_uneven(uneven, best.honest()) || best.candidate < 0) return true;
     }
-    if (best.candidate < 0 || !is_material(best)) return false;
+    if (best.candidate < 0 || !explains_its_share(best)) return false;
     const Candidate chosen = candidate(best.candidate);
     if (moves_mass(chosen) && take_payload_instead(chosen)) return true;
     tell(0.1, described(chosen));
@@ -166,17 +161,13 @@ class Search {
     return false;
   }
 
-  // Whether a third or further cause explains its share; one in the vehicle is measured against others there.
-  // What a second one that changes from one part of the flight to the next gains beside a strong one is that
-  // one's form; but two that move masses may be one payload.
-  bool is_material(const Further& next) const {
+  // One in the vehicle is measured against others there.
+  bool explains_its_share(const Further& next) const {
     const bool mounting = is_of_mounting(candidate(next.candidate).name);
     double found = 0;
     for (const SearchStep& s : out_.steps)
       if (mounting || !is_of_mounting(s.name)) found += s.gain;
-    if (static_cast<int>(out_.steps.size()) >= kOften) return next.honest() >= kMaterial * found;
-    return moves_mass(candidate(next.candidate)) || next.stretch < kUneven ||
-           next.honest() >= kNextToNothing * found;
+    return is_material(next, candidate(next.candidate), static_cast<int>(out_.steps.size()), found);
   }
 
   // One payload in place of all causes that move masses, `next` among them.

@@ -10,6 +10,16 @@ namespace {
 // does: a strong one overshoots where the model is bent in its place.
 constexpr double kFarMore = 10.0;
 
+// The third and further causes have to explain this share of what was found.
+constexpr int kFew = 2;
+constexpr double kMaterial = 0.04;
+// A second one that changes from one part of the flight to the next explains at least this.
+constexpr double kUneven = 5.0;
+constexpr double kNextToNothing = 0.01;
+// A bench value that is wrong by the same in all parts of the flight, and gains so much.
+constexpr double kEven = 1.5;
+constexpr double kPlainlyWrong = 100.0;
+
 }  // namespace
 
 NextCause next_cause(const Standing& at, const std::function<bool(int)>& barred,
@@ -34,6 +44,16 @@ NextCause next_cause(const Standing& at, const std::function<bool(int)>& barred,
   out.best = *std::ranges::max_element(passed, {},
                                        [&](const Further& f) { return 0.5 * f.gain / common - f.price; });
   return out;
+}
+
+// What a second one that changes from one part of the flight to the next gains beside a strong one is that
+// one's form; but two that move masses may be one payload. A bench value that is wrong by the same everywhere
+// is no form of anything.
+bool is_material(const Further& next, const Candidate& cause, int found, double explained) {
+  const double gain = next.honest();
+  const bool wrong = cause.parameter >= 0 && next.stretch < kEven && gain > kPlainlyWrong;
+  if (found >= kFew) return wrong || gain >= kMaterial * explained;
+  return moves_mass(cause) || next.stretch < kUneven || gain >= kNextToNothing * explained;
 }
 
 }  // namespace ident

@@ -20,4 +20,8 @@ struct NextCause {
 NextCause next_cause(const Standing& at, const std::function<bool(int)>& barred,
                      const std::vector<Candidate>& tried);
 
+/// Whether a cause that passes is looked for beside `found` others, which gain `explained` in all: what is
+/// left of causes of nearly the right form gets names otherwise.
+bool is_material(const Further& next, const Candidate& cause, int found, double explained);
+
 }  // namespace ident

@@ -238,6 +238,21 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     with = minimum(form, free, off, dropped, own - 1);
     with.price = std::max(with.price, price - kPricePerDirection);
   }
+  for (const int c : members) {
+    const Candidate& candidate = problem.candidates[static_cast<std::size_t>(c)];
+    const int i = candidate.height;
+    if (i < 0 || std::ranges::find(free, i) == free.end()) continue;
+    const auto moved = [&](int k) {
+      return std::abs(problem.constants[static_cast<std::size_t>(k)].unit() * (with.step[k] - form.null[k]));
+    };
+    const double carried =
+        candidate.mass_for_shift > 0 ? moved(candidate.directions[0]) / candidate.mass_for_shift : 0.0;
+    if (moved(i) <= candidate.highest + carried) continue;
+    off.emplace_back(i, form.null[i]);
+    std::erase(free, i);
+    out.degrees -= 1;
+    with = minimum(form, free, off, dropped, static_cast<Eigen::Index>(free.size() - base.size()));
+  }
   for (const int c : members)
     for (const int i : problem.candidates[static_cast<std::size_t>(c)].directions) {
       const FreeConstant& of = problem.constants[static_cast<std::size_t>(i)];

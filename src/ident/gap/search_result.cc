@@ -34,13 +34,17 @@ double SearchResult::scatter_of(const Candidate& adopted) const {
   return 1.0;
 }
 
+double SearchResult::gain_before_scatter(const Candidate& adopted) const {
+  const auto step = std::ranges::find(alone, described(adopted), &SearchStep::name);
+  return step == alone.end() ? 0.0 : std::max(step->gain, 0.0) * scatter_of(adopted);
+}
+
 // A block of B tells the value with a variance of B / (information of all), and the gain is value^2 times
 // that information.
 double SearchResult::change_of(const Candidate& adopted) const {
-  const auto step = std::ranges::find(alone, described(adopted), &SearchStep::name);
-  if (step == alone.end() || !(step->gain > 0)) return 0.0;
-  const double scatter = scatter_of(adopted), gain = step->gain * scatter;
-  return std::sqrt((scatter - 1) * static_cast<double>(form.scores.cols()) / gain);
+  const double gain = gain_before_scatter(adopted);
+  if (!(gain > 0)) return 0.0;
+  return std::sqrt((scatter_of(adopted) - 1) * static_cast<double>(form.scores.cols()) / gain);
 }
 
 double SearchResult::usual_scatter() const {

@@ -34,6 +34,8 @@ struct SearchResult {
   /// Scatter of an adopted cause's value over blocks of flight, in units of what noise makes: 1 for a true
   /// cause.
   double scatter_of(const Candidate& adopted) const;
+  /// What an adopted cause gains beside the others, not corrected for its scatter.
+  double gain_before_scatter(const Candidate& adopted) const;
   /// By what share of itself that value changes from block to block beyond what noise makes.
   double change_of(const Candidate& adopted) const;
   /// Scatter of all candidates, the median: what the colour of the residuals alone makes.
