@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "ident/io/read_flight_log.h"
 #include "ident/io/vehicle_file.h"
@@ -41,6 +43,27 @@ Vehicle known_vehicle(const Campaign& campaign, const std::vector<CampaignLog>& 
   return with_parameters(vehicle, found);
 }
 
+bool same_samples(std::span<const std::vector<double>> a, std::span<const std::vector<double>> b) {
+  return std::ranges::equal(a, b, [](const std::vector<double>& x, const std::vector<double>& y) {
+    return std::ranges::equal(x, y,
+                              [](double v, double w) { return v == w || (std::isnan(v) && std::isnan(w)); });
+  });
+}
+
+bool same_flight(const FlightLog& a, const FlightLog& b) {
+  return a.t == b.t && a.windows == b.windows && same_samples(a.w_B, b.w_B) && same_samples(a.f_B, b.f_B) &&
+         same_samples(a.v_W, b.v_W) && same_samples(a.q_WB, b.q_WB) && same_samples(a.delta, b.delta) &&
+         same_samples(a.Omega, b.Omega);
+}
+
+/// What is given twice would count twice, and be held out against itself.
+void refuse_twice(const std::vector<FlightLog>& logs) {
+  const FlightLog& last = logs.back();
+  for (const FlightLog& log : std::span(logs).first(logs.size() - 1))
+    if (same_flight(log, last))
+      throw UsageError(last.file + " holds the same flight as " + log.file + ": give each flight once");
+}
+
 }  // namespace
 
 void add_flight_options(CLI::App& cli, FlightOptions& options) {
@@ -65,7 +88,7 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
     context.used.push_back(options.vehicle);
   } else if (campaign) {
     input.vehicle = known_vehicle(*campaign, logs, model, context);
-    context.used.push_back(campaign->file);
+    context.used.insert(context.used.end(), {campaign->file, campaign->vehicle});
     context.shown = Shown::pictures;  // the result is kept for the report of the campaign
   } else {
     throw UsageError("no vehicle: name one with --vehicle FILE, or run where there is an ident.yaml");
@@ -82,6 +105,7 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
       context.used.push_back(log.map);
     }
     input.logs.push_back(read_flight_log(log.file, input.vehicle, map));
+    refuse_twice(input.logs);
     for (const std::string& notice : input.logs.back().notices) context.notices.push_back(notice);
   }
   return input;

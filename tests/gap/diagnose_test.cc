@@ -278,5 +278,36 @@ TEST(Diagnosis, TheModelWithTheCauseHasTheSlantThatWasFitted) {
     EXPECT_LT((adopted.rotors[n].a_B - axis_at(adopted.rotors[n], slant_angle(adopted))).norm(), 1e-12);
 }
 
+// Wind acts through a drag that the model lacks: it is tried once that was found, and stands among the causes
+// tried, as each of two does with what it closes alone.
+TEST(Diagnosis, EveryCauseNamedStandsAmongThoseTriedWithWhatItClosesAlone) {
+  Vehicle truth = published();
+  const Vehicle model = truth;
+  truth.parameters["rotor_drag.kd"] = {6e-5, {}};
+  truth.parameters["wind.north"] = {6.0, {}};
+  truth.parameters["wind.east"] = {-4.0, {}};
+  GapOptions options;
+  options.exclude = {"battery_sag"};
+  const auto found = diagnose_gap(model, std::vector<FlightLog>{flight_of(truth, 12)}, options).result.extra;
+  EXPECT_EQ(found["verdict"]["effects"], nlohmann::ordered_json({"wind"})) << found["verdict"]["sentence"];
+  const auto& tried = found["candidates"];
+  const auto entry = [&](const std::string& name) {
+    return *std::ranges::find_if(tried, [&](const auto& c) { return c["effect"] == name; });
+  };
+  ASSERT_NE(std::ranges::find_if(tried, [](const auto& c) { return c["effect"] == "wind"; }), tried.end());
+  EXPECT_GT(entry("wind")["probability"], 0.9);
+  EXPECT_GT(entry("wind")["evidence"], 100.0);
+  EXPECT_NEAR(entry("wind")["parameters"]["wind.north"]["value"], 6.0, 1.0);
+  EXPECT_TRUE(entry("wind")["detection_limit"]["wind.north"].is_number());
+  EXPECT_GT(entry("wind")["closed"], 0.9);
+  EXPECT_LT(entry("rotor_drag")["closed"], 0.9);  // drag in still air
+  EXPECT_TRUE(entry("parasitic_drag")["closed"].is_null());
+  const auto& left = found["not_tried"];
+  const auto why = std::ranges::find_if(left, [](const auto& c) { return c["effect"] == "battery_sag"; });
+  ASSERT_NE(why, left.end());
+  EXPECT_EQ((*why)["why"], "left out as asked");
+  EXPECT_TRUE(std::ranges::none_of(left, [](const auto& c) { return c["effect"] == "wind"; }));
+}
+
 }  // namespace
 }  // namespace ident

@@ -14,6 +14,7 @@
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/gap/causes_tried.h"
 #include "ident/gap/evidence.h"
 #include "ident/gap/gap_sections.h"
 #include "ident/gap/generic_rival.h"
@@ -28,79 +29,6 @@ using Json = nlohmann::ordered_json;
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-// Value, standard deviation and unit of each constant of an adopted effect, under the file format's name.
-Json adopted_parameters(const FittedModel& model, const Candidate& cause) {
-  Json j = Json::object();
-  const Theta& theta = *model.theta;
-  for (int i = 0; i < theta.constants_count(); ++i) {
-    std::string name = theta.constants()[static_cast<std::size_t>(i)].name;
-    double value = theta.physical(model.fit.u, i);
-    double std = theta.deviation(model.fit.u, i, model.fit.covariance);
-    if (cause.parameter >= 0 ? i != cause.parameter : name.substr(0, name.find('.')) != cause.name) continue;
-    std::string unit = parameter_unit(name);
-    if (const auto at = name.find('@'); at != std::string::npos) {
-      if (cause.rotor + 1 != std::stoi(name.substr(at + 1))) continue;
-      name = name.substr(0, at);
-    }
-    if (name == "ground_effect.radius_sq") {
-      name = "ground_effect.radius", unit = "m";
-      value = std::sqrt(std::max(value, 1e-12)), std = std / (2 * value);
-    }
-    j[name] = {{"value", number(value)}, {"std", number(std)}, {"unit", unit}};
-  }
-  if (cause.rotor >= 0) j[cause.name + ".rotor"] = {{"value", cause.rotor + 1}, {"std", 0}, {"unit", "-"}};
-  return j;
-}
-
-Json candidates_json(const SearchResult& search, const GapClosed& gap) {
-  struct Entry {
-    double probability = 0, gain = 0;
-    Json limits = Json::object(), parameters = Json::object();
-    double closed = kNaN;
-  };
-  std::vector<std::pair<std::string, Entry>> list;
-  const double quantile = 3.63 + 1.28;  // 1 % family-wise over the catalogue, 90 % power
-  for (std::size_t c = 0; c < search.base_problem.candidates.size(); ++c) {
-    const Candidate& cause = search.base_problem.candidates[c];
-    auto at = std::ranges::find(list, cause.name, &std::pair<std::string, Entry>::first);
-    if (at == list.end()) at = list.insert(list.end(), {cause.name, Entry{}});
-    const SetGain set = gain_of(search.base_form, search.base_problem, {static_cast<int>(c)});
-    at->second.gain = std::max(at->second.gain, set.physical() ? set.gain : 0.0);
-    const std::size_t many = cause.parameter >= 0 ? 1 : cause.directions.size();
-    for (std::size_t d = 0; d < many; ++d) {
-      const int i = cause.parameter >= 0 ? cause.parameter : cause.directions[d];
-      std::string name = search.base_problem.constants[static_cast<std::size_t>(i)].name;
-      if (name.substr(0, name.find('.')) != cause.name && cause.parameter < 0) continue;
-      name = name.substr(0, name.find('@'));
-      double limit = quantile * deviation_of(search.base_form, search.base_problem, static_cast<int>(c),
-                                             static_cast<int>(d));
-      if (name == "ground_effect.radius_sq") name = "ground_effect.radius", limit = std::sqrt(limit);
-      if (!at->second.limits.contains(name) || limit > at->second.limits[name].get<double>())
-        at->second.limits[name] = number(limit);
-    }
-  }
-  Json out = Json::array();
-  for (auto& [name, entry] : list) {
-    entry.probability = search.probability_of(name);
-    for (const Candidate& cause : search.best.adopted)
-      if (cause.name == name) entry.parameters = adopted_parameters(search.best, cause);
-    if (search.best.adopted.size() == 1 && search.best.adopted[0].name == name) entry.closed = gap.closed;
-    out.push_back({{"effect", name},
-                   {"probability", entry.probability},
-                   {"detection_limit", entry.limits},
-                   {"closed", number(entry.closed)},
-                   {"evidence", entry.gain},
-                   {"parameters", entry.parameters}});
-  }
-  std::stable_sort(out.begin(), out.end(), [](const Json& a, const Json& b) {
-    const auto rank = [](const Json& c) {  // probabilities that look the same do not order
-      return std::pair(std::round(1e3 * c["probability"].get<double>()), c["evidence"].get<double>());
-    };
-    return rank(a) > rank(b);
-  });
-  return out;
-}
-
 void require_known(const std::vector<std::string>& causes) {
   std::vector<std::string> known;
   for (const EffectEntry& effect : catalogue()) known.emplace_back(effect.info.name);
@@ -109,6 +37,35 @@ void require_known(const std::vector<std::string>& causes) {
   for (const std::string& cause : causes)
     if (std::ranges::find(known, cause) == known.end())
       throw UsageError(fmt::format("no cause '{}' to leave out{}", cause, did_you_mean(cause, known)));
+}
+
+// The model found with one of its causes only, all else as it is; wind with the drag through which it acts.
+Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, const Candidate& cause) {
+  constexpr double kNothing = -30.0;  // of the logarithm of what is positive
+  Eigen::VectorXd out = u;
+  const std::vector<FreeConstant>& constants = model.theta->constants();
+  const auto is_of = [&](const Candidate& c, std::size_t i) {
+    if (c.parameter >= 0) return static_cast<std::size_t>(c.parameter) == i;
+    const std::string& name = constants[i].name;
+    const std::size_t at = name.find('@');
+    const bool rotor = at == std::string::npos || std::stoi(name.substr(at + 1)) == c.rotor + 1;
+    return rotor && name.substr(0, name.find('.')) == c.name;
+  };
+  for (const Candidate& other : model.adopted) {
+    const bool carries = other.name == "rotor_drag" || other.name == "parasitic_drag";
+    if (same(other, cause) || (carries && cause.name == "wind")) continue;
+    for (std::size_t i = 0; i < constants.size(); ++i) {
+      const FreeConstant& c = constants[i];
+      if (!is_of(other, i)) continue;
+      const double null = other.parameter >= 0 ? c.prior_value : find_parameter(c.name)->null_value;
+      const auto k = static_cast<Eigen::Index>(i);
+      if (c.positive)
+        out[k] = null > 0 ? std::log(null / c.start) : kNothing;
+      else
+        out[k] = (null - c.start) / c.scale;
+    }
+  }
+  return out;
 }
 
 Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
@@ -194,7 +151,15 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                              {"sentence", verdict.sentence}};
   if (std::isfinite(verdict.remaining)) result.extra["verdict"]["remaining"] = verdict.remaining;
   result.extra["where"] = where_json(before);
-  result.extra["candidates"] = candidates_json(search, gap);
+  const auto closed_alone = [&](const Candidate& cause) {
+    if (search.best.adopted.size() == 1) return gap.closed;
+    PredictionOptions half = windows;
+    half.horizons = {0.1, 0.5};
+    const auto c = predict_windows(split.held_out, best, with_only(search.best, u_best, cause), noise, half);
+    return gap_closed(a[1], c[1]).closed;
+  };
+  result.extra["candidates"] = causes_tried(search, closed_alone);
+  result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
   result.extra["gap"] = {{"before", number(gap.before)},
                          {"after", number(gap.after)},
                          {"noise_floor", number(gap.floor)},

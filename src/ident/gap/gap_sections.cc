@@ -199,11 +199,14 @@ Section tried_section(const Json& found) {
                           c.contains("evidence") ? fmt::format("{:.1f}", number(c["evidence"])) : "–",
                           limits});
   }
-  return {.title = "What was tried",
-          .text =
-              "The last column is the size that would have been found in these logs in nine of ten cases; "
-              "evidence is the fall of the misfit with that cause alone.",
-          .tables = {std::move(table)}};
+  std::string text =
+      "The last column is the size that would have been found in these logs in nine of ten cases; "
+      "evidence is the fall of the misfit with that cause alone.";
+  for (const Json& c : found["not_tried"])
+    text += fmt::format("{}{} ({})", &c == &found["not_tried"].front() ? " Not tried: " : ", ",
+                        c["effect"].get<std::string>(), c["why"].get<std::string>());
+  if (!found["not_tried"].empty()) text += ".";
+  return {.title = "What was tried", .text = std::move(text), .tables = {std::move(table)}};
 }
 
 Section traces(const ResidualWrench& before, const ResidualWrench& after) {

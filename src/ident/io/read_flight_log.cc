@@ -11,6 +11,7 @@
 #include "ident/io/log_checks.h"
 #include "ident/io/log_columns.h"
 #include "ident/io/log_signals.h"
+#include "ident/io/log_spikes.h"
 #include "ident/io/table_checks.h"
 
 namespace ident {
@@ -139,7 +140,9 @@ class Builder {
       Omega.push_back(std::move(values));
     }
     if (!Omega.empty()) check_rotor_speeds(log_, Omega);
-    if (!Omega.empty() && !Omega.front().empty()) log_.Omega = std::move(Omega);
+    if (Omega.empty() || Omega.front().empty()) return;
+    drop_spikes(log_, Omega, "rotor speeds");
+    log_.Omega = std::move(Omega);
   }
 
   struct Sensor {
@@ -161,6 +164,7 @@ class Builder {
       drop_constant(log_, sensor.components, sensor.name);
       if (sensor.components.front().empty()) continue;
       drop_held(log_, sensor.components, sensor.name);
+      if (sensor.components.size() == 3) drop_spikes(log_, sensor.components, sensor.name);
       found.push_back({sensor.name, sensor.components});
     }
     if (log_.has_commands()) found.push_back({"commands", log_.delta});

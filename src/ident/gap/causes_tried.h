@@ -1,0 +1,22 @@
+// Every cause of the catalogue as a diagnosis reports it: how probable, how large, how small it could be seen.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "ident/gap/search_result.h"
+
+namespace ident {
+
+/// One entry for each cause tried, most probable first (`candidates` of the result). `closed_alone` gives the
+/// share of the gap that an adopted cause closes without the others.
+nlohmann::ordered_json causes_tried(const SearchResult& search,
+                                    const std::function<double(const Candidate&)>& closed_alone);
+
+/// Effects of the catalogue that were not tried, each with the reason.
+nlohmann::ordered_json causes_not_tried(const SearchResult& search, const Vehicle& vehicle,
+                                        const std::vector<std::string>& exclude);
+
+}  // namespace ident

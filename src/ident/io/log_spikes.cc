@@ -1,0 +1,80 @@
+// A sample against the cubic through the two before and the two after it.
+#include "ident/io/log_spikes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ident/core/error.h"
+
+namespace ident {
+namespace {
+
+// Off by so many of the usual deviations, and by so many times what all but a twentieth of the samples are: in
+// a log that is slow against its flight what is usual says little of a turn.
+constexpr double kUsual = 25.0;
+constexpr double kMost = 6.0;
+// What the neighbours differ, against a spike; and the share of a signal beyond which it is no accident.
+constexpr double kAgree = 0.3;
+constexpr double kAccident = 0.01;
+constexpr double kOneGap = 3.0;  // times the usual step: samples further apart say nothing of each other
+constexpr std::size_t kFew = 50;
+constexpr double kNormal = 1.4826;  // standard deviation over the median of sizes
+
+double quantile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+// Rows whose value is a spike.
+std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vector<double>& values) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isnan(values[i])) rows.push_back(i);
+  if (rows.size() < kFew) return {};
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(t[rows[k]] - t[rows[k - 1]]);
+  const double together = kOneGap * 4 * quantile(steps, 0.5);
+  std::vector<double> off(rows.size(), 0.0);
+  const auto at = [&](std::size_t k) { return values[rows[k]]; };
+  for (std::size_t k = 2; k + 2 < rows.size(); ++k)
+    if (t[rows[k + 2]] - t[rows[k - 2]] < together)
+      off[k] = std::abs(at(k) - (4 * (at(k - 1) + at(k + 1)) - at(k - 2) - at(k + 2)) / 6);
+  const double usual = kNormal * quantile(off, 0.5);
+  if (!(usual > 0)) return {};  // steps of a coarse sensor
+  const double limit = std::max(kUsual * usual, kMost * quantile(off, 0.95));
+  std::vector<std::size_t> spikes;
+  for (std::size_t k = 2; k + 2 < rows.size(); ++k) {
+    const bool largest = *std::max_element(off.begin() + static_cast<std::ptrdiff_t>(k) - 2,
+                                           off.begin() + static_cast<std::ptrdiff_t>(k) + 3) == off[k];
+    if (!largest || !(off[k] > limit)) continue;
+    const std::array<double, 4> around{at(k - 2), at(k - 1), at(k + 1), at(k + 2)};
+    const auto [low, high] = std::ranges::minmax(around);
+    if (high - low < kAgree * std::abs(at(k) - 0.5 * (low + high))) spikes.push_back(rows[k]);
+  }
+  const bool accident = static_cast<double>(spikes.size()) < kAccident * static_cast<double>(rows.size());
+  return accident ? spikes : std::vector<std::size_t>{};
+}
+
+}  // namespace
+
+void drop_spikes(FlightLog& log, Components sensor, const std::string& name) {
+  std::size_t count = 0;
+  double first = kNaN;
+  for (std::vector<double>& values : sensor)
+    for (const std::size_t i : spikes_of(log.t, values)) {
+      values[i] = kNaN, ++count;
+      if (!(log.t[i] > first)) first = log.t[i];
+    }
+  if (count == 0) return;
+  log.warnings.push_back(
+      {"spikes", fmt::format("{}: {}: {} single values far off the ones around them, the first at t = {:.6g} "
+                             "s, count as not sampled",
+                             log.file, name, count, first)});
+}
+
+}  // namespace ident

@@ -1,0 +1,14 @@
+// Single values in a log that cannot belong to the flight.
+#pragma once
+
+#include <string>
+
+#include "ident/io/log_checks.h"
+
+namespace ident {
+
+/// Makes single samples NaN that lie far off the four around them, which agree (warning `spikes`): a bit that
+/// fell over on the way to the log. None where they are too many for that.
+void drop_spikes(FlightLog& log, Components sensor, const std::string& name);
+
+}  // namespace ident
