@@ -60,7 +60,7 @@ Action flightlog_command(CLI::App& cli) {
                  "intervals from that many block bootstraps (50 or more) in place of the sandwich")
       ->check(CLI::Range(50, 100000))
       ->type_name("N");
-  cli.add_option("--horizon", options->horizon, "length of the simulated windows, s")
+  cli.add_option("--horizon", options->horizon, "length of the simulated windows, s; default 1")
       ->check(CLI::Range(0.02, 60.0))
       ->type_name("SECONDS");
   examples(

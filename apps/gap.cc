@@ -30,7 +30,7 @@ Outcome run(const Options& options, Context& context) {
 Action gap_command(CLI::App& cli) {
   auto options = std::make_shared<Options>();
   add_flight_options(cli, options->flight);
-  cli.add_option("--exclude", options->exclude, "causes that must not be tried")
+  cli.add_option("--exclude", options->exclude, "causes that must not be tried, as rotor_drag,parameter:km")
       ->delimiter(',')
       ->type_name("EFFECT,...");
   cli.add_option("--write-params", options->write_params, "the vehicle with the causes found, as a file")

@@ -87,7 +87,8 @@ void add_simulate_flight(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   add_simulate_options(*sub, o->file);
   std::vector<std::string> names;
   for (const ScenarioInfo& info : scenarios()) names.push_back(info.name);
-  sub->add_option("--scenario", o->flight.scenario, "what is flown (list below)")->capture_default_str();
+  sub->add_option("--scenario", o->flight.scenario, "what is flown: one of the scenarios above")
+      ->capture_default_str();
   sub->add_option("--duration", o->flight.duration, "s")->capture_default_str();
   sub->add_option("--rate", o->flight.rate, "rows and commands a second")->capture_default_str();
   sub->add_option("--seed", o->flight.seed, "of noise, gusts and phases")->capture_default_str();

@@ -29,7 +29,8 @@ Action thrust_command(CLI::App& cli) {
   cli.add_option("--radius", options->radius, "of the propeller in m: adds CT, CQ and the figure of merit")
       ->type_name("M")
       ->check(CLI::PositiveNumber);
-  cli.add_option("--rho", options->rho, "density of the air in kg/m^3; default 1.225")
+  cli.add_option("--rho", options->rho,
+                 "density of the air in kg/m^3; default that of the vehicle file, else 1.225")
       ->type_name("KG/M3")
       ->check(CLI::PositiveNumber);
   examples(cli,

@@ -12,6 +12,9 @@ using Case = VerdictCase;
 TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   Case c({"rotor_drag"}, {});
   EXPECT_EQ(c.judged().status, "none");
+  EXPECT_NE(c.judged().sentence.find("its constants refitted"), std::string::npos);
+  c.closes({0.0, 0.3}, 0.1);
+  EXPECT_EQ(c.judged().sentence, "The model explains these logs down to the noise; no cause stands out.");
   c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
   EXPECT_EQ(c.judged().status, "unknown");
   c.jumps.clear();

@@ -87,7 +87,8 @@ Entries entries_of(const SearchResult& search) {
     if (others.size() == have.size()) with.push_back(static_cast<int>(c));
     const SetGain set = gain_of(search.form, search.problem, with),
                   rest = gain_of(search.form, search.problem, others);
-    enter(entries, search.form, search.problem, c, set.physical() ? std::max(set.gain - rest.gain, 0.0) : 0.0);
+    enter(entries, search.form, search.problem, c,
+          set.physical() ? std::max(set.gain - rest.gain, 0.0) : 0.0);
   }
   return entries;
 }
@@ -127,7 +128,8 @@ Json causes_not_tried(const SearchResult& search, const Vehicle& vehicle,
     const char* why = "these logs or this model cannot show it";
     if (std::ranges::find(exclude, name) != exclude.end())
       why = "left out as asked";
-    else if (states_effect(vehicle, name) || (effect.id == EffectId::gyroscopic && vehicle.parameters.contains("Jp")))
+    else if (states_effect(vehicle, name) ||
+             (effect.id == EffectId::gyroscopic && vehicle.parameters.contains("Jp")))
       why = "stated in the vehicle file";
     else if (effect.id == EffectId::wind)
       why = "it acts through drag, and none was stated or found";

@@ -1,4 +1,5 @@
-// Every cause of the catalogue as a diagnosis reports it: how probable, how large, how small it could be seen.
+// Every cause of the catalogue as a diagnosis reports it: how probable, how large, how small it could be
+// seen.
 #pragma once
 
 #include <functional>

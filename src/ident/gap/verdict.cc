@@ -17,6 +17,8 @@ namespace {
 
 // A generic rival that gains this much on held-out flight, with no cause found, has seen something.
 constexpr double kRivalGain = 45.0;
+// A share of what the model misses as given that its constants, refitted, take away.
+constexpr double kOfConstants = 0.5;
 // A cause is identified with this probability, and one that stands in its place is told of from that on.
 constexpr double kSure = 0.9;
 constexpr double kTold = 0.05;
@@ -39,7 +41,7 @@ std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
 }
 
 // Where no cause was found: what still says that something is there.
-Judged nothing_found(const Rival& rival, const std::vector<SpectralLine>& lines,
+Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector<SpectralLine>& lines,
                      const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
   if (rival.total() > kRivalGain)
@@ -62,6 +64,11 @@ Judged nothing_found(const Rival& rival, const std::vector<SpectralLine>& lines,
         "The flight contradicts the value of {} known beforehand by {:.0f} standard deviations, and no cause "
         "explains why.",
         p->name, std::abs(*p->pull));
+  else if (gap.closed > kOfConstants)
+    out = {.status = "none",
+           .sentence =
+               "No cause stands out: with its constants refitted, within what was stated of them, the "
+               "model explains these logs down to the noise."};
   else
     out = {.status = "none",
            .sentence = "The model explains these logs down to the noise; no cause stands out."};
@@ -103,7 +110,7 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     return out;
   }
   out.effects = names_of(search.best.adopted);
-  if (out.effects.empty()) return nothing_found(rival, lines, jumps, fitted);
+  if (out.effects.empty()) return nothing_found(gap, rival, lines, jumps, fitted);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (const std::string why = against_naming(search, gap, rival, lines, jumps, fitted); !why.empty()) {
     out.sentence =

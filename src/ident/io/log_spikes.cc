@@ -12,8 +12,8 @@
 namespace ident {
 namespace {
 
-// Off by so many of the usual deviations, and by so many times what all but a twentieth of the samples are: in
-// a log that is slow against its flight what is usual says little of a turn.
+// Off by so many of the usual deviations, and by so many times what all but a twentieth of the samples are:
+// in a log that is slow against its flight what is usual says little of a turn.
 constexpr double kUsual = 25.0;
 constexpr double kMost = 6.0;
 // What the neighbours differ, against a spike; and the share of a signal beyond which it is no accident.
@@ -72,8 +72,8 @@ void drop_spikes(FlightLog& log, Components sensor, const std::string& name) {
     }
   if (count == 0) return;
   log.warnings.push_back(
-      {"spikes", fmt::format("{}: {}: {} single values far off the ones around them, the first at t = {:.6g} "
-                             "s, count as not sampled",
+      {"spikes", fmt::format("{}: {}: values far off the ones around them count as not sampled: {}, the "
+                             "first at t = {:.6g} s",
                              log.file, name, count, first)});
 }
 
