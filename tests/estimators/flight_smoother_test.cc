@@ -70,6 +70,35 @@ TEST(FlightSmoother, UnmeasuredRotorSpeedsAreFreeOfScale) {
   EXPECT_NEAR(smoother.reduced().cost, here, 0.005);
 }
 
+// The gradient is that of the cost, also where motors are so noisy that the links bear much of it: a weight
+// that went with an unknown would bend the one and not the other.
+TEST(FlightSmoother, GradientIsThatOfTheCostWithNoisyMotors) {
+  Vehicle vehicle = testing::published_vehicle();
+  for (const char* name : {"kT", "kQ", "km", "omega_m", "zeta_m", "Jxx"})
+    vehicle.parameters[name] = {vehicle.value(name), 0.1 * vehicle.value(name)};
+  SimulationOptions options;
+  options.duration = 8.0;
+  options.rate = 100.0;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  vehicle.parameters["omega_m"].value *= 1.5;
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta theta(p, free_constants(vehicle, p), 1, true);
+  NoiseModel noise = initial_noise(record);
+  noise.q_motor = 2e3;
+  FlightSmoother smoother(record, theta, noise, 0.1);
+  smoother.set_exact(true);
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+  smoother.settle(u, 8);
+  const Eigen::VectorXd g = 2 * smoother.reduced().g;
+  constexpr double kStep = 1e-3;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const Eigen::VectorXd du = kStep * Eigen::VectorXd::Unit(theta.size(), i);
+    const double slope = (smoother.linearize(u + du).cost - smoother.linearize(u - du).cost) / (2 * kStep);
+    EXPECT_NEAR(g[i], slope, 0.01 * std::abs(slope)) << theta.name(i);
+  }
+}
+
 // Elimination and the blocks of scores go two ways to the same gradient and information: forwards over what
 // each chunk passes on, backwards through what the states do with the shared unknowns.
 void expect_blocks_add_up(FlightSmoother& smoother) {

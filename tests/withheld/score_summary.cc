@@ -113,7 +113,11 @@ void print_summary(const std::vector<Contestant>& contestants, std::ostream& out
       [&](const Cases& c) { return share_of(c, single_above_3, is(Outcome::right)).text(); });
   row("pairs, both 3 x limit or more: both named", "75 %",
       [&](const Cases& c) { return share_of(c, pair_above_3, is(Outcome::right)).text(); });
-  row("the same, each 3 x limit with the other free", "",
+  row("the same, or in a group of at most 3", "", [&](const Cases& c) {
+    return share_of(c, pair_above_3, [](Outcome o) { return o == Outcome::right || o == Outcome::group; })
+        .text();
+  });
+  row("both named, each 3 x limit with the other free", "",
       [&](const Cases& c) { return share_of(c, joint_pair_above_3, is(Outcome::right)).text(); });
   row("no effect: a cause is named", "at most 2 %", [](const Cases& c) {
     return share_of(

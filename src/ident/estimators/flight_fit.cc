@@ -11,7 +11,7 @@ namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
-// Fall of the cost that is worth a step with exact slopes.
+// Fall of the cost that is worth a step without exact slopes.
 constexpr double kWorthAStep = 0.01;
 // Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
 constexpr double kNearly = 0.3;
@@ -25,6 +25,14 @@ constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise br
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+bool finite(const ReducedSystem& system) { return std::isfinite(system.cost) && system.S.allFinite(); }
+
+// What a step has to promise: more than the tolerance, and than a share of what the model misses altogether.
+double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options) {
+  const double missed = smoother.reduced().cost - samples_of(smoother.record());
+  return std::max(options.tolerance, options.tolerance_of_misfit * missed);
+}
 
 // Very far from the minimum, steps follow what noise there is against everything that was known beforehand,
 // to where chance takes them. Noise as large as the residuals lets the first ones keep to it; rounds of noise
@@ -70,6 +78,8 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       record, theta, options.noise.value_or(initial_noise(record)), chunk, options.threads);
   // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
   smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
+  if (options.near && options.near->chunks().size() == smoother->chunks().size())
+    smoother->set_states(options.near->states());
   VectorXd u = VectorXd::Zero(theta.size());
   smoother->settle(u, 1);
   if (options.estimate_noise) calm(*smoother);
@@ -91,6 +101,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     smoother->linearize(u, true);
     smoother->accept();
     if (options.robust) smoother->set_huber(kHuber);
+    const NoiseModel before = smoother->noise();
     const double change = update_noise(*smoother, 6);
     const double wanted =
         options.chunk_seconds > 0 ? chunk : chunk_for(record, smoother->noise(), options.fine_gusts);
@@ -105,15 +116,21 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
     if (!changed && (change < 0.03 || (round >= 5 && change < kNearly))) break;
     smoother->accept();
     const NewtonStep step = newton_step(*smoother, u);
-    if (step.fall < kNear && theta.possible(u + step.du))
+    if (step.fall < kNear && theta.possible(u + step.du)) {
       u += step.du;
-    else
+    } else if (finite(smoother->linearize(u))) {
       trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
+    } else {  // a sensor that seems to have no noise at all
+      smoother->set_noise(before);
+      restart();
+      break;
+    }
   }
   // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
-  if (!std::isfinite(smoother->linearize(u).cost)) restart();
-  const SharedMinimum near = minimise_shared(*smoother, u, std::max(options.tolerance, kWorthAStep));
-  u = near.u, fit.steps += near.steps;
+  if (!finite(linearize_at(*smoother, u))) restart();
+  const SharedMinimum near =
+      minimise_shared(*smoother, u, std::max(worth_a_step(*smoother, options), kWorthAStep));
+  u = near.u, fit.steps += near.steps, fit.stuck = near.stuck;
   fit.u = u;
   fit.noise = smoother->noise();
   fit.chunk_seconds = chunk;
@@ -126,9 +143,16 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
 
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
   FlightSmoother& smoother = *fit.smoother;
-  smoother.set_exact(true);
-  const SharedMinimum at = minimise_shared(smoother, fit.u, options.tolerance);
-  fit.u = at.u, fit.steps += at.steps, fit.cost = at.cost;
+  smoother.set_exact(options.exact);
+  const bool exact = options.exact || !finite(linearize_at(smoother, fit.u));
+  smoother.set_exact(exact);
+  linearize_at(smoother, fit.u);
+  smoother.accept();
+  if (exact && !fit.stuck) {
+    const SharedMinimum at = minimise_shared(smoother, fit.u, worth_a_step(smoother, options));
+    fit.u = at.u, fit.steps += at.steps;
+  }
+  fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
   fit.information = smoother.reduced().S;
   const MatrixXd prior = prior_information(theta, fit.u);
   fit.naive_covariance = inverse_of(fit.information + prior);

@@ -19,6 +19,9 @@ struct FlightFitOptions {
   bool choose_axes = true;     ///< whether gusts keep their direction in the world or turn with the vehicle
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
+  double tolerance_of_misfit = 0.0;  ///< the same as a share of the cost beyond that of noise alone
+  bool exact = true;                 ///< ends with slopes in double precision, for which see finish_fit
+  std::shared_ptr<const FlightSmoother> near;  ///< of a like model, whose states to start from
   int threads = 0;
   std::function<void(double)> progress;  ///< share done
 };
@@ -33,6 +36,7 @@ struct FlightFit {
   double chunk_seconds = 0.0;
   int steps = 0, evaluations = 0;
   bool converged = false;
+  bool stuck = false;  ///< where no step keeps what it promises: the minimum as far as can be seen
   std::vector<ScoreBlock> blocks;            ///< what stretches of `block_seconds` say
   std::shared_ptr<FlightSmoother> smoother;  ///< at the optimum; refers to the record and theta of the call
 };
@@ -41,8 +45,8 @@ struct FlightFit {
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
 /// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
-/// Slopes are exact: where links let next to no noise through, the rounding of single precision would pass
-/// for information. For a fit that was made with a larger tolerance.
+/// Slopes are exact if asked for: where links let next to no noise through, the rounding of single precision
+/// would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
 /// The shared unknowns as the blocks that `take` accepts would have them: one Newton step from the fit.

@@ -101,7 +101,7 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine)
     }
   };
   for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
-  return std::clamp(h, std::max(4.0 * record.interval, 0.03), 0.25);
+  return std::clamp(h, std::max(4.0 * record.interval, fine ? 0.03 : 0.05), 0.25);
 }
 
 }  // namespace ident

@@ -46,14 +46,6 @@ Factor factor(const MatrixXd& S, const VectorXd& g) {
   return {root.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal(), r};
 }
 
-// Where the last linearisation is at u already, only the process noise can have changed.
-void linearize_at(FlightSmoother& smoother, const VectorXd& u) {
-  if (smoother.stands_at(u))
-    smoother.relinearize();
-  else
-    smoother.linearize(u);
-}
-
 // The smoother as residuals of the shared unknowns, for Ceres: r'r is the cost, J'J the information.
 class SharedResiduals {
  public:
@@ -118,6 +110,10 @@ double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough) 
 
 }  // namespace
 
+const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u) {
+  return smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
+}
+
 double samples_of(const FlightRecord& record) {
   double samples = 1;
   for (const FlightArc& arc : record.arcs)
@@ -178,14 +174,16 @@ SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, d
     at.steps += before;
   };
   double left = newton_steps(smoother, at, enough);
-  if (!(left < kNear)) {
-    trust_region(kNear);
+  // Where the model bends more than its slopes tell, steps promise what none of any length keeps.
+  for (const double near : {kNear, 0.0}) {
+    if (left < std::max(near, std::max(enough, kStuck))) continue;
+    const double before = at.cost;
+    trust_region(near);
+    at.stuck = !(before - at.cost > enough);
+    if (at.stuck) break;
     left = newton_steps(smoother, at, enough);
   }
-  if (!(left < std::max(enough, kStuck))) {
-    trust_region(0.0);
-    newton_steps(smoother, at, enough);
-  }
+  if (at.stuck) linearize_at(smoother, at.u), smoother.accept();
   return at;
 }
 

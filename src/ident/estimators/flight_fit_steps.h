@@ -12,7 +12,11 @@ struct SharedMinimum {
   Eigen::VectorXd u;
   double cost = 0.0;  ///< priors included
   int steps = 0;
+  bool stuck = false;  ///< no step keeps what it promises
 };
+
+/// Linearises at u; where the last linearisation is there already, only the process noise can have changed.
+const ReducedSystem& linearize_at(FlightSmoother& smoother, const Eigen::VectorXd& u);
 
 /// Samples that the cost is a sum over: about one each near the minimum.
 double samples_of(const FlightRecord& record);

@@ -181,6 +181,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   record.vehicle = &vehicle;
   record.logs = static_cast<int>(logs.size());
   record.signals = signals_of(logs);
+  record.motor_rate = p[param::omega_m];
   const int rotors = static_cast<int>(vehicle.rotors.size());
   if (rotors == 0 || rotors > kMaxRotors)
     throw UsageError(
@@ -220,9 +221,11 @@ void require_turning(const Signals& logged) {
 }
 
 FlightRecord without_arcs(const FlightRecord& record) {
-  return {record.vehicle, {},           record.logs,     record.signals,
-          record.layout,  record.sigma, record.interval, record.duration,
-          record.warnings};
+  return {record.vehicle,    {},
+          record.logs,       record.signals,
+          record.layout,     record.sigma,
+          record.interval,   record.duration,
+          record.motor_rate, record.warnings};
 }
 
 FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {

@@ -41,6 +41,7 @@ struct FlightRecord {
   std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
   double interval = 0.0;                  ///< median time between rows, s
   double duration = 0.0;                  ///< of all arcs, s
+  double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   std::vector<Warning> warnings;
 };
 

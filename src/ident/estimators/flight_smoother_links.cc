@@ -132,15 +132,15 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
     }
   };
   wanders(layout.w_dot, air_of(k).w_dot), wanders(layout.v_dot, air_of(k).v_dot);
-  const std::vector<double> p = theta_->p(trial_u_);
-  const double omega_m = p[param::omega_m];
+  // Not omega_m as it stands: with its square for a weight, faster motors would make their noise cheap.
+  const double rate = record_->motor_rate;
   // Rotor speeds that nobody measured are known up to a scale, that of km. The floor goes with it: else less
   // speed would mean more freedom, and the cost would fall with km.
-  const double speeds = p[param::km] / theta_->p(VectorXd::Zero(theta_->size()))[param::km];
+  const double speeds = theta_->p(trial_u_)[param::km] / theta_->p(VectorXd::Zero(theta_->size()))[param::km];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0 * speeds);
     W[layout.motors + n] = 1.0 / f;
-    W[layout.motors + layout.rotors + n] = 1.0 / (f * omega_m * omega_m);
+    W[layout.motors + layout.rotors + n] = 1.0 / (f * rate * rate);
   }
   return W;
 }

@@ -68,6 +68,20 @@ Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, co
   return out;
 }
 
+// Those of `all` that begin where one of `some` does.
+std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& all,
+                                           const std::vector<PredictionWindow>& some) {
+  std::vector<PredictionWindow> out;
+  auto next = all.begin();
+  for (const PredictionWindow& one : some) {
+    next = std::find_if(next, all.end(),
+                        [&](const PredictionWindow& w) { return w.log == one.log && w.t == one.t; });
+    if (next == all.end()) break;
+    out.push_back(*next);
+  }
+  return out;
+}
+
 Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
   Vehicle out = vehicle;
   const Theta& theta = *model.theta;
@@ -153,10 +167,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.extra["where"] = where_json(before);
   const auto closed_alone = [&](const Candidate& cause) {
     if (search.best.adopted.size() == 1) return gap.closed;
-    PredictionOptions half = windows;
-    half.horizons = {0.1, 0.5};
-    const auto c = predict_windows(split.held_out, best, with_only(search.best, u_best, cause), noise, half);
-    return gap_closed(a[1], c[1]).closed;
+    PredictionOptions fewer = windows;
+    fewer.horizons = {windows.horizons[1]}, fewer.spacing *= 2;
+    const auto c = predict_windows(split.held_out, best, with_only(search.best, u_best, cause), noise, fewer);
+    return gap_closed(same_windows(a[1], c[0]), c[0]).closed;
   };
   result.extra["candidates"] = causes_tried(search, closed_alone);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/parallel.h"
 #include "ident/gap/held_out_gain.h"
 
 namespace ident {
@@ -124,15 +125,18 @@ void add_sensors(Rival& rival, const FlightRecord& record, const FlightSmoother&
   std::vector<int> parts;
   for (const ChunkPlace& place : smoother.chunks())
     parts.push_back(part_of(record.arcs[static_cast<std::size_t>(place.arc)], place.arc, place.begin));
-  for (int channel = 0; channel < kRotorChannel + record.layout.rotors; ++channel) {
+  std::vector<double> gains(static_cast<std::size_t>(kRotorChannel + record.layout.rotors), kNaN);
+  in_parallel(gains.size(), [&](std::size_t channel) {
     SensorResiduals of{VectorXd::Zero(X.rows()), VectorXd::Zero(X.rows())};
     for (std::size_t k = 0; k < residuals.size(); ++k) {
-      const Sum whole = sum_of(residuals[k], static_cast<std::size_t>(channel), 0, residuals[k].size());
+      const Sum whole = sum_of(residuals[k], channel, 0, residuals[k].size());
       of.sum[static_cast<Index>(k)] = whole.sum, of.count[static_cast<Index>(k)] = whole.count;
     }
-    if (of.count.sum() < kLeast) continue;
-    rival.sensors.emplace_back(channel_name(channel), held_out_gain(of, with_constant, parts));
-  }
+    if (of.count.sum() >= kLeast) gains[channel] = held_out_gain(of, with_constant, parts);
+  });
+  for (std::size_t channel = 0; channel < gains.size(); ++channel)
+    if (std::isfinite(gains[channel]))
+      rival.sensors.emplace_back(channel_name(static_cast<int>(channel)), gains[channel]);
 }
 
 // The rotors' speeds once more, in pieces as short as motors are fast, by what each does itself: one
@@ -198,9 +202,8 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   Rival rival;
   FlightSmoother smoother(record, theta, floor, std::max(fit.chunk_seconds, kChunk));
   if (smoother.chunks().size() < 60) return rival;
+  if (smoother.chunks().size() == fit.smoother->chunks().size()) smoother.set_states(fit.smoother->states());
   smoother.settle(fit.u, kRounds);
-  smoother.linearize(fit.u);
-  smoother.accept();
   const std::vector<double> p = theta.p(fit.u);
   const double hover =
       std::sqrt(p[param::m] * record.vehicle->g / (static_cast<double>(record.layout.rotors) * p[param::kT]));

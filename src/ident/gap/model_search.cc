@@ -16,6 +16,8 @@ namespace {
 
 // A cause gains this much, whatever its scatter, to be tried in full.
 constexpr double kWorthATrial = 100.0;
+// A model that misses much is good enough where so little of that is still to be had.
+constexpr double kOfMisfit = 1e-4;
 constexpr int kOften = 2;
 constexpr std::size_t kTrials = 2;
 // Causes found that are no more probable than this among all sets are exchanged, so often.
@@ -34,6 +36,8 @@ class Search {
     fit_.noise_rounds = 4;
     fit_.fine_gusts = false;   // sets are compared under a dispersion that is common to them
     fit_.choose_axes = false;  // a force that the model lacks would choose them
+    fit_.exact = false;        // only what is found in the end has to be
+    fit_.tolerance_of_misfit = kOfMisfit;
   }
 
   SearchResult run() {
@@ -48,7 +52,7 @@ class Search {
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
     out_.sets = weighed_sets(now_);
     out_.alone = steps_here();
-    fit_.tolerance = 0.02;
+    fit_.exact = true, fit_.tolerance_of_misfit = 0;
     finish_fit(now_.model.fit, *now_.model.theta, fit_);
     out_.best = std::move(now_.model);
     out_.asked = asked_by_channels(out_.best);

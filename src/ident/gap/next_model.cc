@@ -93,8 +93,9 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   const bool strong = set.gain - gain_of(at_now.form, at_now.problem, at_now.have).gain > kStrong;
   again.noise = strong ? at_now.model.fit.noise : at_now.form.noise;
   again.estimate_noise = strong;
-  again.chunk_seconds =
-      std::min(at_now.model.fit.chunk_seconds, chunk_for(record, at_now.form.noise, again.fine_gusts));
+  again.near = at_now.model.fit.smoother;
+  again.chunk_seconds = chunk_for(record, at_now.form.noise, again.fine_gusts);
+  if (strong) again.chunk_seconds = std::min(again.chunk_seconds, at_now.model.fit.chunk_seconds);
   return fitted(constants, adopted, record, at, again);
 }
 

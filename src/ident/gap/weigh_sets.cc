@@ -12,12 +12,14 @@ namespace {
 
 // Log prior odds against each further cause.
 constexpr double kOddsAgainst = 7.0;
+constexpr double kNone = -1e300;
 
 // `stretch` is common to all sets that are compared: a rival must not win because its own residual happens to
 // be whiter.
 double evidence(const SetGain& set, double stretch) {
   const double causes = static_cast<double>(set.members.size());
-  return 0.5 * set.gain / stretch - set.price - kOddsAgainst * causes;
+  const double log = 0.5 * set.gain / stretch - set.price - kOddsAgainst * causes;
+  return std::isfinite(log) ? log : kNone;  // of a form that rounding left without a minimum
 }
 
 // By how much colour inflates what the causes found gain: the most of them.
@@ -66,7 +68,7 @@ std::vector<WeighedSet> weighed_sets(const Standing& at) {
         set[drop] = c;
         add(set);
       }
-  double top = -1e300;
+  double top = kNone;
   for (const std::vector<int>& members : sets) {
     const SetGain set = gain_of(at.form, at.problem, members);
     if (!set.physical()) continue;
