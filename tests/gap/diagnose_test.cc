@@ -4,39 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "ident/core/error.h"
-#include "ident/io/vehicle_file.h"
-#include "ident/model/simulate.h"
+#include "support/diagnosed.h"
 
 namespace ident {
 namespace {
 
 using Names = std::vector<std::string>;
 
-FlightLog flight_of(const Vehicle& vehicle, std::uint64_t seed) {
-  SimulationOptions options;
-  options.duration = 25.0;
-  options.rate = 100.0;
-  options.seed = seed;
-  return simulate_flight(vehicle, options).log;
-}
-
-Vehicle published() { return read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml"); }
-
-// Bench values to that share of themselves.
-void known_to(double share, std::initializer_list<const char*> names, Vehicle& model) {
-  for (const char* name : names) model.parameters.at(name).std = share * model.value(name);
-}
-
-nlohmann::ordered_json verdict_of(const Vehicle& model, const FlightLog& log) {
-  const std::vector<FlightLog> logs{log};
-  return diagnose_gap(model, logs).result.extra["verdict"];
-}
+using testing::flight_of;
+using testing::known_to;
+using testing::published_vehicle;
+using testing::verdict_of;
 
 TEST(Diagnosis, PrintedSignsOfPhangAreFoundAsGyroscopicAndRightOnesLeaveNothing) {
-  const Vehicle truth = published();
+  const Vehicle truth = published_vehicle();
   Vehicle printed = truth;
   printed.signs = Signs::as_published;
   const FlightLog log = flight_of(truth, 1);
@@ -47,7 +30,7 @@ TEST(Diagnosis, PrintedSignsOfPhangAreFoundAsGyroscopicAndRightOnesLeaveNothing)
 }
 
 TEST(Diagnosis, WithheldRotorDragIsNamedAndWithoutItInTheCatalogueNothingElseIs) {
-  Vehicle truth = published();
+  Vehicle truth = published_vehicle();
   const Vehicle model = truth;
   truth.parameters["rotor_drag.kd"] = {3e-5, {}};
   const std::vector<FlightLog> logs{flight_of(truth, 2)};
@@ -59,23 +42,8 @@ TEST(Diagnosis, WithheldRotorDragIsNamedAndWithoutItInTheCatalogueNothingElseIs)
   EXPECT_EQ(diagnose_gap(model, logs, options).result.extra["verdict"]["status"], "unknown");
 }
 
-// A path alone does not tell how the vehicle turned along it.
-TEST(Diagnosis, APathWithoutRatesAndAttitudeIsRefusedInSoManyWords) {
-  FlightLog log = flight_of(published(), 4);
-  log.w_B = {}, log.f_B = {}, log.q_WB = {}, log.Omega = {};
-  ASSERT_TRUE(log.has_position() && log.has_velocity() && log.has_commands());
-  try {
-    verdict_of(published(), log);
-    ADD_FAILURE() << "was diagnosed";
-  } catch (const DataError& error) {
-    EXPECT_NE(std::string(error.what()).find("neither rates nor attitude"), std::string::npos)
-        << error.what();
-  }
-}
-
-// Linearised at zero a long delay gains most and yet looks as if its size changed from moment to moment.
 TEST(Diagnosis, LongMotorDelayIsFoundThoughItIsFarFromLinear) {
-  Vehicle truth = published();
+  Vehicle truth = published_vehicle();
   const Vehicle model = truth;
   truth.parameters["motor_delay.tau"] = {0.02, {}};
   const std::vector<FlightLog> logs{flight_of(truth, 3)};
@@ -87,7 +55,7 @@ TEST(Diagnosis, LongMotorDelayIsFoundThoughItIsFarFromLinear) {
 // A turned sensor mimics a biased accelerometer for most of a flight, but not all: a regression on what the
 // sensors show finds the rest.
 TEST(Diagnosis, ALookAlikeIsNotNamedWhenTheCauseItselfMayNotBe) {
-  Vehicle truth = published();
+  Vehicle truth = published_vehicle();
   const Vehicle model = truth;
   truth.parameters["imu_bias.ax"] = {0.3, {}};
   truth.parameters["imu_bias.az"] = {0.2, {}};
@@ -102,7 +70,7 @@ TEST(Diagnosis, ALookAlikeIsNotNamedWhenTheCauseItselfMayNotBe) {
 
 // Stated ten times too fast, and with confidence, a motor bends every other constant before it moves itself.
 TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
-  Vehicle model = published();
+  Vehicle model = published_vehicle();
   const FlightLog log = flight_of(model, 6);
   const double truth = model.value("omega_m");
   model.parameters.at("omega_m") = {10 * truth, 0.5 * truth};
@@ -116,7 +84,7 @@ TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
 
 // Damping stated wrongly and with confidence, beside a loose omega_m that the same fit may move.
 TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeContradicted) {
-  Vehicle model = published();
+  Vehicle model = published_vehicle();
   const FlightLog log = flight_of(model, 8);
   const double truth = model.value("zeta_m");
   model.parameters.at("zeta_m") = {0.6 * truth, 0.012 * truth};
@@ -135,7 +103,7 @@ TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeCo
 
 // From the fit without it the first step ends beyond what any battery does.
 TEST(Diagnosis, AStrongBatterySagIsFoundThoughItsFirstStepIsBeyondPhysics) {
-  Vehicle model = published();
+  Vehicle model = published_vehicle();
   known_to(0.1, {"omega_m", "zeta_m"}, model);
   known_to(0.05, {"km", "kT", "kQ", "Jxx", "Jyy", "Jzz"}, model);
   Vehicle truth = model;
@@ -148,7 +116,7 @@ TEST(Diagnosis, AStrongBatterySagIsFoundThoughItsFirstStepIsBeyondPhysics) {
 
 // How the sensor is mounted does not use up the causes that were asked for.
 TEST(Diagnosis, HowTheSensorIsMountedComesOnTopOfTheCausesAskedFor) {
-  Vehicle truth = published();
+  Vehicle truth = published_vehicle();
   const Vehicle model = truth;
   truth.parameters["rotor_drag.kd"] = {3e-5, {}};
   truth.parameters["imu_lever_arm.x"] = {0.03, {}};
@@ -165,7 +133,7 @@ TEST(Diagnosis, HowTheSensorIsMountedComesOnTopOfTheCausesAskedFor) {
 // A heavy payload shows its inertia only where it acts: linearised at zero it is a shifted centre of gravity,
 // and then products of inertia.
 TEST(Diagnosis, AHeavyPayloadIsOneCauseNotTwo) {
-  Vehicle model = published();
+  Vehicle model = published_vehicle();
   for (const char* name : {"kT", "kQ", "km", "Jxx", "Jyy", "Jzz"})
     model.parameters.at(name).std = 0.05 * model.value(name);
   model.parameters.at("m").std = 0.03 * model.value("m");
@@ -186,7 +154,7 @@ TEST(Diagnosis, AHeavyPayloadIsOneCauseNotTwo) {
 // With a weak rotor missing in the model a payload is a shifted centre of gravity at first sight; with both
 // in it the weights speak for the payload.
 TEST(Diagnosis, WhatWasFoundFirstIsExchangedWhereTheRestSpeaksAgainstIt) {
-  Vehicle model = published();
+  Vehicle model = published_vehicle();
   for (const char* name : {"kQ", "km"}) model.parameters.at(name).std = 0.03 * model.value(name);
   for (const char* name : {"Jxx", "Jyy", "Jzz"}) model.parameters.at(name).std = 0.05 * model.value(name);
   model.parameters.at("kT").std = 0.1 * model.value("kT");
@@ -206,7 +174,7 @@ TEST(Diagnosis, WhatWasFoundFirstIsExchangedWhereTheRestSpeaksAgainstIt) {
 // A payload too light to be weighed shows as a shifted centre of gravity only: both are named. Where the mass
 // is known well it is the payload.
 TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {
-  Vehicle model = published(), truth = model;
+  Vehicle model = published_vehicle(), truth = model;
   truth.parameters["payload.m"] = {0.002, {}};
   truth.parameters["payload.x"] = {0.1, {}};
   const FlightLog log = flight_of(truth, 4);
@@ -220,60 +188,21 @@ TEST(Diagnosis, CentreOfGravityAndPayloadAreToldApartByTheMassOnly) {
   EXPECT_EQ(named, (std::vector<std::string>{"cg_offset", "payload"})) << verdict["sentence"];
 }
 
-// Logs without rates, or without attitude, are normal: states start far from their best there.
-TEST(Diagnosis, NothingIsFoundWithoutRatesOrAttitude) {
-  Vehicle model = published();
-  known_to(0.05, {"kT", "kQ", "km", "Jxx", "Jyy", "Jzz"}, model);
-  FlightLog no_rates = flight_of(published(), 3), no_attitude = no_rates;
-  for (auto& column : no_rates.w_B) column.clear();
-  for (auto& column : no_attitude.q_WB) column.clear();
-  EXPECT_EQ(verdict_of(model, no_rates)["status"], "none");
-  EXPECT_EQ(verdict_of(model, no_attitude)["status"], "none");
-}
-
-TEST(Diagnosis, HoverAloneTellsNoCause) {
-  Vehicle model = published();
-  known_to(0.05, {"kT", "kQ", "km", "Jxx", "Jyy", "Jzz", "omega_m"}, model);
-  FlightLog still = flight_of(published(), 4);
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise;
-  const auto shake = [&](auto& columns, double sigma) {
-    for (auto& column : columns)
-      for (double& x : column) x += sigma * noise(random);
-  };
-  const double level =
-      std::sqrt(model.value("m") * model.g / (4 * model.value("kT") * std::cos(slant_angle(model)))) /
-      model.value("km");
-  for (auto& column : still.delta) column.assign(column.size(), level);
-  for (auto& column : still.Omega) column.assign(column.size(), level * model.value("km"));
-  for (std::size_t k = 0; k < 3; ++k) {
-    still.w_B[k].assign(still.t.size(), 0.0), still.v_W[k].assign(still.t.size(), 0.0);
-    still.f_B[k].assign(still.t.size(), k == 2 ? -model.g : 0.0);
-    still.x_W[k].assign(still.t.size(), k == 2 ? -2.0 : 0.0);
-  }
-  for (std::size_t k = 0; k < 4; ++k) still.q_WB[k].assign(still.t.size(), k == 0 ? 1.0 : 0.0);
-  shake(still.w_B, 0.01), shake(still.f_B, 0.1), shake(still.v_W, 0.01), shake(still.x_W, 0.002);
-  shake(still.Omega, 2.0);
-  const auto verdict = verdict_of(model, still);
-  EXPECT_NE(verdict["status"], "identified") << verdict;
-  EXPECT_NE(verdict["status"], "ambiguous") << verdict;
-}
-
 TEST(Diagnosis, ACauseThatIsNoneCannotBeLeftOut) {
   GapOptions options;
   options.exclude = {"rotor_darg"};
-  const std::vector<FlightLog> logs{flight_of(published(), 1)};
-  EXPECT_THROW(diagnose_gap(published(), logs, options), UsageError);
+  const std::vector<FlightLog> logs{flight_of(published_vehicle(), 1)};
+  EXPECT_THROW(diagnose_gap(published_vehicle(), logs, options), UsageError);
 }
 
 // The slant angle that was fitted is that of the rotors that are written.
 TEST(Diagnosis, TheModelWithTheCauseHasTheSlantThatWasFitted) {
-  Vehicle model = published();
+  Vehicle model = published_vehicle();
   model.parameters["alpha"].value += 0.02, model.parameters["alpha"].std = 0.02;
   for (Rotor& rotor : model.rotors) rotor.a_B = axis_at(rotor, slant_angle(model));
-  const std::vector<FlightLog> logs{flight_of(published(), 5)};
+  const std::vector<FlightLog> logs{flight_of(published_vehicle(), 5)};
   const Vehicle adopted = diagnose_gap(model, logs).adopted;
-  EXPECT_NEAR(slant_angle(adopted), slant_angle(published()), 0.005);
+  EXPECT_NEAR(slant_angle(adopted), slant_angle(published_vehicle()), 0.005);
   for (std::size_t n = 0; n < 4; ++n)
     EXPECT_LT((adopted.rotors[n].a_B - axis_at(adopted.rotors[n], slant_angle(adopted))).norm(), 1e-12);
 }
@@ -281,7 +210,7 @@ TEST(Diagnosis, TheModelWithTheCauseHasTheSlantThatWasFitted) {
 // Wind acts through a drag that the model lacks: it is tried once that was found, and stands among the causes
 // tried, as each of two does with what it closes alone.
 TEST(Diagnosis, EveryCauseNamedStandsAmongThoseTriedWithWhatItClosesAlone) {
-  Vehicle truth = published();
+  Vehicle truth = published_vehicle();
   const Vehicle model = truth;
   truth.parameters["rotor_drag.kd"] = {6e-5, {}};
   truth.parameters["wind.north"] = {6.0, {}};

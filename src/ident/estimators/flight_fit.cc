@@ -130,7 +130,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   if (!finite(linearize_at(*smoother, u))) restart();
   const SharedMinimum near =
       minimise_shared(*smoother, u, std::max(worth_a_step(*smoother, options), kWorthAStep));
-  u = near.u, fit.steps += near.steps, fit.stuck = near.stuck;
+  u = near.u, fit.steps += near.steps;
   fit.u = u;
   fit.noise = smoother->noise();
   fit.chunk_seconds = chunk;
@@ -144,11 +144,11 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
   FlightSmoother& smoother = *fit.smoother;
   smoother.set_exact(options.exact);
-  const bool exact = options.exact || !finite(linearize_at(smoother, fit.u));
+  const bool exact = options.exact || !finite(linearize_at(smoother, fit.u));  // too coarse for these
   smoother.set_exact(exact);
   linearize_at(smoother, fit.u);
   smoother.accept();
-  if (exact && !fit.stuck) {
+  if (exact) {
     const SharedMinimum at = minimise_shared(smoother, fit.u, worth_a_step(smoother, options));
     fit.u = at.u, fit.steps += at.steps;
   }

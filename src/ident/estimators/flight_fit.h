@@ -36,7 +36,6 @@ struct FlightFit {
   double chunk_seconds = 0.0;
   int steps = 0, evaluations = 0;
   bool converged = false;
-  bool stuck = false;  ///< where no step keeps what it promises: the minimum as far as can be seen
   std::vector<ScoreBlock> blocks;            ///< what stretches of `block_seconds` say
   std::shared_ptr<FlightSmoother> smoother;  ///< at the optimum; refers to the record and theta of the call
 };

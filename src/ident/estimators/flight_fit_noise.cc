@@ -10,6 +10,9 @@ namespace {
 constexpr double kNoGust = 0.01;       // m/s^2: weaker ones move no constant, whatever their axes
 constexpr double kBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
 constexpr int kRetune = 3;
+// Shortest chunks, s; in a search, where models that miss much ask for the shortest, less would cost time
+// only.
+constexpr double kFinest = 0.03, kFinestSearch = 0.05;
 
 double rms_rate_of(const FlightRecord& record, int channel) {
   double sum = 0, n = 0;
@@ -101,7 +104,7 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine)
     }
   };
   for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
-  return std::clamp(h, std::max(4.0 * record.interval, fine ? 0.03 : 0.05), 0.25);
+  return std::clamp(h, std::max(4.0 * record.interval, fine ? kFinest : kFinestSearch), 0.25);
 }
 
 }  // namespace ident

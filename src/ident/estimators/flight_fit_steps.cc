@@ -179,11 +179,13 @@ SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, d
     if (left < std::max(near, std::max(enough, kStuck))) continue;
     const double before = at.cost;
     trust_region(near);
-    at.stuck = !(before - at.cost > enough);
-    if (at.stuck) break;
+    if (!(before - at.cost > enough)) {
+      linearize_at(smoother, at.u);
+      smoother.accept();
+      break;
+    }
     left = newton_steps(smoother, at, enough);
   }
-  if (at.stuck) linearize_at(smoother, at.u), smoother.accept();
   return at;
 }
 

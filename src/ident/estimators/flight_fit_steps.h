@@ -12,7 +12,6 @@ struct SharedMinimum {
   Eigen::VectorXd u;
   double cost = 0.0;  ///< priors included
   int steps = 0;
-  bool stuck = false;  ///< no step keeps what it promises
 };
 
 /// Linearises at u; where the last linearisation is there already, only the process noise can have changed.

@@ -167,7 +167,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.extra["where"] = where_json(before);
   const auto closed_alone = [&](const Candidate& cause) {
     if (search.best.adopted.size() == 1) return gap.closed;
-    PredictionOptions fewer = windows;
+    PredictionOptions fewer = windows;  // every other one tells causes apart
     fewer.horizons = {windows.horizons[1]}, fewer.spacing *= 2;
     const auto c = predict_windows(split.held_out, best, with_only(search.best, u_best, cause), noise, fewer);
     return gap_closed(same_windows(a[1], c[0]), c[0]).closed;
