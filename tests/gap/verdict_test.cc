@@ -82,6 +82,29 @@ TEST(Verdict, MoreThanThreeNamesAreNoAnswer) {
   EXPECT_EQ(four.confused_with.size(), 4U);
 }
 
+TEST(Verdict, ALagThatNoPhysicsMakesIsNamedWhateverIsBesideIt) {
+  Case c({"parameter:omega_m", "rotor_tilt", "gyroscopic", "battery_sag"},
+         {"parameter:omega_m", "rotor_tilt", "gyroscopic", "battery_sag"});
+  c.weighs({0, 1, 2, 3}, 1.0);
+  Parameter omega_m, zeta_m;
+  omega_m.name = "omega_m", omega_m.value = 28, omega_m.prior_value = 300;
+  zeta_m.name = "zeta_m", zeta_m.value = 1;
+  c.fitted = {omega_m, zeta_m};
+  c.closes({-0.5, 1.0}, 0.3);
+  const Judged named = c.judged();
+  EXPECT_EQ(named.status, "identified");
+  EXPECT_EQ(named.effects, Names{"parameter:omega_m"});
+  EXPECT_NEAR(named.remaining, 0.7, 1e-12);
+  EXPECT_NE(named.sentence.find("28 rad/s instead of 300"), std::string::npos) << named.sentence;
+  c.closes({0.2, 0.4}, 0.3);
+  EXPECT_EQ(c.judged().status, "unknown") << "most of the gap remains";
+  c.closes({-0.5, 1.0}, 0.3);
+  c.fitted[0].prior_value = 80;
+  EXPECT_EQ(c.judged().status, "unknown") << "what a model lacks may make so much";
+  c.fitted[0].prior_value = 300, c.fitted[0].value = 4;
+  EXPECT_EQ(c.judged().status, "unknown") << "nothing flies with motors as slow";
+}
+
 TEST(Verdict, FourCausesInTheVehicleAreNoAnswerThoughNothingElseExplainsIt) {
   Case c({"rotor_drag", "rotor_tilt", "gyroscopic", "battery_sag", "imu_bias"},
          {"rotor_drag", "rotor_tilt", "gyroscopic", "imu_bias"});

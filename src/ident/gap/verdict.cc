@@ -11,6 +11,7 @@
 #include "ident/core/format_number.h"
 #include "ident/gap/against_naming.h"
 #include "ident/gap/further.h"
+#include "ident/gap/wrong_lag.h"
 
 namespace ident {
 namespace {
@@ -24,6 +25,9 @@ constexpr double kSure = 0.9;
 constexpr double kTold = 0.05;
 // An answer of more names than this, those of how the sensor is mounted apart, is none.
 constexpr std::ptrdiff_t kMostNames = 3;
+// Slower motors, s of lag, no multirotor flies with: a model that asks for them has left the commands aside.
+constexpr double kSlowestLag = 0.2;
+constexpr double kMostRemains = 0.5;
 
 // The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
 std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
@@ -96,11 +100,9 @@ std::vector<std::string> in_their_place(const SearchResult& search, const std::v
   return others;
 }
 
-}  // namespace
-
-Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
-             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
-             const std::vector<Parameter>& fitted) {
+Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+                 const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
+                 const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
   if (!search.ran_away.empty()) {
     out.confused_with = search.ran_away;
@@ -148,6 +150,38 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
   out.confused_with.insert(out.confused_with.end(), others.begin(), others.end());
   if (std::isfinite(gap.closed) && gap.closed < 0.8)
     out.sentence += fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining);
+  return out;
+}
+
+// The motors' lag where it was found wrong by more than anything else that a model lacks would make of it.
+const Parameter* plainly_wrong_lag(const SearchResult& search, const std::vector<Parameter>& fitted) {
+  const auto is_it = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
+  const auto omega_m = std::ranges::find(fitted, "omega_m", &Parameter::name);
+  const auto zeta_m = std::ranges::find(fitted, "zeta_m", &Parameter::name);
+  if (std::ranges::none_of(search.best.adopted, is_it) || omega_m == fitted.end() || zeta_m == fitted.end() ||
+      !omega_m->prior_value)
+    return nullptr;
+  const bool flies = 2 * zeta_m->value / omega_m->value < kSlowestLag;
+  return flies && lag_beyond_physics(omega_m->value, *omega_m->prior_value) ? &*omega_m : nullptr;
+}
+
+}  // namespace
+
+Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
+             const std::vector<Parameter>& fitted) {
+  Judged out = judge_all(search, gap, rival, lines, jumps, fitted);
+  const Parameter* lag = plainly_wrong_lag(search, fitted);
+  if (!lag || out.status != "unknown" || (std::isfinite(gap.closed) && gap.ci95[1] < kMostRemains))
+    return out;
+  // What else is there, and whether it can be told, changes nothing of this.
+  const std::string rest = std::exchange(out.sentence, {});
+  out.status = "identified", out.effects = {"parameter:omega_m"}, out.confused_with.clear();
+  if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
+  out.sentence = fmt::format(
+      "The motors are not what was stated: omega_m is {} rad/s instead of {}, and nothing else that a model "
+      "can lack makes such a difference. With that alone the gap is not explained. {}",
+      format_number(lag->value, 3), format_number(*lag->prior_value, 3), rest);
   return out;
 }
 

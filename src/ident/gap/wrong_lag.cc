@@ -31,10 +31,6 @@ bool off(const FittedModel& model, int index, double deviations) {
   return false;
 }
 
-bool far_from_stated(double found, double stated) {
-  return std::max(found / stated, stated / found) >= kNoPhysics;
-}
-
 // The stated value times a factor at which the flight fits best with all else as stated; NaN where it flies
 // with none.
 double best_start(const FlightRecord& record, const std::vector<double>& p,
@@ -65,6 +61,10 @@ double misfit(const FlightRecord& record, const FittedModel& model, const NoiseM
 
 }  // namespace
 
+bool lag_beyond_physics(double found, double stated) {
+  return std::max(found / stated, stated / found) >= kNoPhysics;
+}
+
 bool lag_pulled_far(const FittedModel& model) {
   return off(model, param::omega_m, kPulledFar) || off(model, param::zeta_m, kPulledFar);
 }
@@ -92,7 +92,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   causes.push_back(*cause);
   WrongLag out{*cause, fitted(constants, causes, record, p, again)};
   // The model at hand may have come there by itself, against what was stated.
-  if (far_from_stated(at_hand.theta->physical(at_hand.fit.u, cause->parameter), omega_m.prior_value)) {
+  if (lag_beyond_physics(at_hand.theta->physical(at_hand.fit.u, cause->parameter), omega_m.prior_value)) {
     for (std::size_t i = 0; i < constants.size(); ++i)
       constants[i].start = at_hand.theta->physical(at_hand.fit.u, static_cast<int>(i));
     FittedModel on = fitted(constants, causes, record, p, again);
@@ -104,7 +104,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   smoother.settle(at_hand.fit.u, 1);
   out.gain = total_cost(smoother, *at_hand.theta, at_hand.fit.u) - out.model.fit.cost;
   const double found = out.model.theta->physical(out.model.fit.u, cause->parameter);
-  if (!(out.gain > 0) || found < kSlowest || !far_from_stated(found, omega_m.prior_value)) return {};
+  if (!(out.gain > 0) || found < kSlowest || !lag_beyond_physics(found, omega_m.prior_value)) return {};
   return out;
 }
 

@@ -15,6 +15,10 @@ struct WrongLag {
   double gain = 0.0;  ///< fall of the cost, priors included, below that of the model at hand
 };
 
+/// Whether a natural frequency of the motors is so far off the stated one that nothing else that a model
+/// lacks makes the difference.
+bool lag_beyond_physics(double found, double stated);
+
 /// Whether the flight pulls omega_m or zeta_m more than five standard deviations off what was stated.
 bool lag_pulled_far(const FittedModel& model);
 
