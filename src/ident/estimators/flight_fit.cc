@@ -94,11 +94,14 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   };
   TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
   if (options.estimate_noise) first.max_steps = kFirstSteps;
+  smoother->set_gentle(true);
   trust_region(first);
+  if (options.estimate_noise) smoother->linearize(u, true);
+  smoother->set_gentle(false);
   tell(0.3);
   bool axes_chosen = !options.choose_axes;
   for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
-    smoother->linearize(u, true);
+    if (round > 0) smoother->linearize(u, true);
     smoother->accept();
     if (options.robust) smoother->set_huber(kHuber);
     const NoiseModel before = smoother->noise();

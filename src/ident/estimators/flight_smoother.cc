@@ -2,7 +2,9 @@
 #include "ident/estimators/flight_smoother.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "ident/core/parallel.h"
 #include "ident/estimators/flight_chunk_maps.h"
@@ -20,6 +22,16 @@ double sensor_delay_of(const std::vector<double>& p, double interval) {
   static const int tau = find_parameter("sensor_delay.tau")->index;
   constexpr double kRows = 50.0;
   return std::clamp(p[static_cast<std::size_t>(tau)], 0.0, kRows * interval);
+}
+
+// What is tried of a state's step, one after the other, where with all of it nothing flies: a nearly instant
+// motor, say, leaves so little of its state at the start of an arc that the first steps there are wild.
+constexpr std::array kShares = {0.1, 0.0};
+
+bool flies(const ChunkResult& result) {
+  if (!std::isfinite(result.cost) || !result.x_end.body.w_B.allFinite()) return false;
+  return std::ranges::all_of(result.E, [](double e) { return std::isfinite(e); }) &&
+         std::ranges::all_of(result.A, [](double a) { return std::isfinite(a); });
 }
 
 }  // namespace
@@ -101,13 +113,21 @@ ChunkTask FlightSmoother::task(std::size_t k, const VectorXd& u, const std::vect
 }
 
 void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage) {
+  std::vector<std::size_t> all(places_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  evaluate(u, jacobian, leverage, all);
+}
+
+void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
+                              const std::vector<std::size_t>& chunks) {
   const std::vector<double> p = theta_->p(u);
   std::vector<std::vector<Seed>> seeds;
   seeds.reserve(static_cast<std::size_t>(record_->logs));
   for (int log = 0; log < record_->logs; ++log) seeds.push_back(theta_->seeds(u, log));
   std::array<double, kChannels> weight;
   for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / noise_.sigma[c];
-  in_parallel(places_.size(), [&](std::size_t k) {
+  in_parallel(chunks.size(), [&](std::size_t i) {
+    const std::size_t k = chunks[i];
     ChunkTask one = task(k, u, p, seeds);
     one.weight = weight.data();
     one.jacobian = jacobian;
@@ -170,17 +190,30 @@ VectorXd FlightSmoother::defect(std::size_t k) const {
 
 void FlightSmoother::predict(const VectorXd& u) {
   trial_u_ = u;
+  steps_.clear();
   if (accepted_.f.empty()) {
     trial_ = states_;
     return;
   }
   const VectorXd du = u - u_;
-  VectorXd next;
+  steps_.resize(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
-    VectorXd dx = -(accepted_.f[k] + accepted_.B[k].leftCols(du.size()) * du);
-    if (places_[k].linked) dx -= accepted_.G[k] * next;
-    trial_[k] = moved(states_[k], dx);
-    next = dx;
+    steps_[k] = -(accepted_.f[k] + accepted_.B[k].leftCols(du.size()) * du);
+    if (places_[k].linked) steps_[k] -= accepted_.G[k] * steps_[k + 1];
+    trial_[k] = moved(states_[k], steps_[k]);
+  }
+}
+
+// The same with shorter steps of those states from which nothing flies.
+void FlightSmoother::shorten_wild_steps(const VectorXd& u, bool leverage) {
+  if (steps_.empty()) return;
+  for (const double share : kShares) {
+    std::vector<std::size_t> wild;
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      if (!flies(results_[k])) wild.push_back(k);
+    if (wild.empty()) return;
+    for (const std::size_t k : wild) trial_[k] = moved(states_[k], share * steps_[k]);
+    evaluate(u, true, leverage, wild);
   }
 }
 
@@ -188,6 +221,7 @@ const ReducedSystem& FlightSmoother::linearize(const VectorXd& u, bool leverage)
   if (leverage) posterior_covariances(accepted_);
   predict(u);
   evaluate(u, true, leverage);
+  if (gentle_) shorten_wild_steps(u, leverage);
   eliminate();
   stands_ = true;
   return reduced_;

@@ -83,6 +83,8 @@ class FlightSmoother {
   void set_noise(const NoiseModel& noise);
   /// Slopes in double precision, for a fit to the last digit of exact data.
   void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
+  /// Steps of states from which nothing flies are shortened. Without, the cost there is no number.
+  void set_gentle(bool gentle) { gentle_ = gentle; }
   double huber() const { return huber_; }
   /// Residuals beyond this many standard deviations count linearly.
   void set_huber(double huber) { stands_ = stands_ && huber == huber_, huber_ = huber; }
@@ -141,6 +143,9 @@ class FlightSmoother {
                  const std::vector<std::vector<Seed>>& seeds) const;
   void predict(const Eigen::VectorXd& u);
   void evaluate(const Eigen::VectorXd& u, bool jacobian, bool leverage);
+  void evaluate(const Eigen::VectorXd& u, bool jacobian, bool leverage,
+                const std::vector<std::size_t>& chunks);
+  void shorten_wild_steps(const Eigen::VectorXd& u, bool leverage);
   void eliminate(const Eigen::VectorXd* held = nullptr);
   Eigen::VectorXd defect(std::size_t k) const;
   Eigen::VectorXd link_weight(std::size_t k) const;
@@ -167,10 +172,11 @@ class FlightSmoother {
   double chunk_seconds_;
   int threads_;
   double huber_ = 4.0;
-  bool stands_ = false, exact_ = false;
+  bool stands_ = false, exact_ = false, gentle_ = false;
   std::vector<ChunkPlace> places_;
   std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
+  std::vector<Eigen::VectorXd> steps_;               // from the one to the other
   std::vector<ChunkResult> results_;
   std::vector<Eigen::MatrixXd> profiles_;
   Eigen::VectorXd u_, trial_u_;  // of the accepted and of the last linearisation
