@@ -14,5 +14,5 @@ log=$root/build/ctest.log
 status=0
 ctest --test-dir "$root/build" --output-on-failure -j "$(nproc)" "$@" >"$log" 2>&1 || status=$?
 [ "$status" = 0 ] || grep -vE '^ *[0-9]+/[0-9]+ Test .* Passed|^ +Start ' "$log"
-grep -E '^[0-9]+% tests passed' "$log" || true
+grep -E '^[0-9]+% tests passed|^Total Test time' "$log" || true
 exit "$status"
