@@ -116,6 +116,24 @@ TEST(FlightRefine, ThePublishedVehicleIsFoundFromItsPublishedManoeuvre) {
     expect_within(result, name, truth.value(name), 4.0);
 }
 
+// A vehicle file whose inertia is in other units: what is left of the flight is no number.
+TEST(FlightRefine, SimulationsThatRunAwayAreCountedAndLeftOut) {
+  SimulationOptions options;
+  options.duration = 10.0;
+  Vehicle wrong = feasible();
+  const std::vector<FlightLog> logs = flights(wrong, options);
+  EXPECT_EQ(verify_flight(wrong, logs).fit["ran_away"], 0);
+  for (const char* J : {"Jxx", "Jyy", "Jzz"}) wrong.parameters.at(J).value *= 1e-3;
+  const Result verified = verify_flight(wrong, logs);
+  const int lost = verified.fit["ran_away"], windows = verified.fit["windows"];
+  EXPECT_GT(lost, 0);
+  EXPECT_NE(verified.verdict.find(std::to_string(lost) + " of the " + std::to_string(windows)),
+            std::string::npos)
+      << verified.verdict;
+  for (const auto& [channel, errors] : verified.fit["channels"].items())
+    EXPECT_LT(errors["rms"].get<double>(), 1e6) << channel;
+}
+
 TEST(FlightRefine, DelayOfTheSensorsIsFoundWithoutBias) {
   SimulationOptions options;
   options.duration = 30.0;
@@ -181,6 +199,32 @@ TEST(Theta, AnInertiaThatIsNotPositiveDefiniteIsNotPossible) {
     u[last] = sign * 1.01 * border;
     EXPECT_FALSE(theta.possible(u));
   }
+}
+
+// Against a prior of 60 % an inertia once went to 1e-32 for the price of less than two deviations.
+TEST(Theta, WhatIsPositiveDoesNotVanishForAFewDeviations) {
+  Vehicle v = feasible();
+  v.parameters["Jxx"].std = 0.6 * v.value("Jxx");
+  const std::vector<double> p = parameter_vector(v);
+  const Theta theta(p, free_constants(v, p), 1, true);
+  int Jxx = 0;
+  while (theta.name(Jxx) != "Jxx") ++Jxx;
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+  const auto at = [&](double share) {
+    u[Jxx] = std::log(share);
+    const PriorTerms prior = theta.prior(u);
+    return std::pair{prior.residual[Jxx], prior.slope[Jxx]};
+  };
+  EXPECT_NEAR(at(0.5).first, -0.5 / 0.6, 1e-12);
+  EXPECT_NEAR(at(0.1 + 1e-9).first, at(0.1 - 1e-9).first, 1e-8);
+  EXPECT_NEAR(at(0.1 + 1e-9).second, at(0.1 - 1e-9).second, 1e-8);
+  EXPECT_LT(at(1e-32).first, -10.0);
+  u[theta.size() - 1] = -300.0;
+  EXPECT_NEAR(theta.prior(u).residual[theta.size() - 1], -300.0, 1e-9) << "a gyro bias has no sign";
+  const double h = 1e-5;
+  for (const double share : {0.7, 0.05, 1e-6})
+    EXPECT_NEAR((at(share * std::exp(h)).first - at(share * std::exp(-h)).first) / (2 * h), at(share).second,
+                1e-8);
 }
 
 // What the motors do in the first moments, and just after a gap, was commanded before: it is not in the log.

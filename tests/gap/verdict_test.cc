@@ -103,6 +103,32 @@ TEST(Verdict, ALagThatNoPhysicsMakesIsNamedWhateverIsBesideIt) {
   EXPECT_EQ(c.judged().status, "unknown") << "what a model lacks may make so much";
   c.fitted[0].prior_value = 300, c.fitted[0].value = 4;
   EXPECT_EQ(c.judged().status, "unknown") << "nothing flies with motors as slow";
+  c.fitted[0].value = 28;
+  EXPECT_EQ(c.judged().status, "identified");
+  c.fitted[1].value = 0.02;
+  EXPECT_EQ(c.judged().status, "unknown") << "no motor swings so";
+}
+
+TEST(Verdict, ABatteryThatTheThrustShowsIsNamedWhateverIsBesideIt) {
+  Case c({"battery_sag", "rotor_tilt", "gyroscopic", "cg_offset"},
+         {"battery_sag", "rotor_tilt", "gyroscopic", "cg_offset"});
+  c.weighs({0, 1, 2, 3}, 1.0);
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.thrust = {
+      .stretches = 60, .logs = 3, .rising = 3, .n = 0.7, .n_std = 0.02, .varies = 0.06, .left = 0.02};
+  const Judged named = c.judged();
+  EXPECT_EQ(named.status, "identified");
+  EXPECT_EQ(named.effects, Names{"battery_sag"});
+  EXPECT_NE(named.sentence.find("6.0 %, by 2.0 %"), std::string::npos) << named.sentence;
+  c.search.thrust.rising = 2;
+  EXPECT_EQ(c.judged().status, "unknown") << "in one log it falls";
+  c.search.thrust.rising = 3, c.search.thrust.left = 0.04;
+  EXPECT_EQ(c.judged().status, "unknown") << "most of it is something else";
+  c.search.thrust.left = 0.02, c.search.thrust.n = 3.0;
+  EXPECT_EQ(c.judged().status, "unknown") << "no motor does that";
+  c.search.thrust.n = 0.7;
+  std::erase_if(c.search.best.adopted, [](const Candidate& a) { return a.name == "battery_sag"; });
+  EXPECT_EQ(c.judged().status, "unknown") << "no model with it stands";
 }
 
 TEST(Verdict, FourCausesInTheVehicleAreNoAnswerThoughNothingElseExplainsIt) {

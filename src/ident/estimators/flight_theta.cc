@@ -5,11 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ident/core/error.h"
 
 namespace ident {
 namespace {
+
+// Below this share of what is stated, what is positive is held along its logarithm: against a loose prior it
+// would otherwise vanish for the price of a few deviations, and with it what the flight says of all else.
+constexpr double kVanishing = 0.1;
 
 EffectMask effect_of(int slot) {
   for (const EffectEntry& e : catalogue())
@@ -101,14 +106,17 @@ std::vector<Seed> Theta::seeds(const Eigen::VectorXd& u, int log) const {
 PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
   PriorTerms terms{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(size())};
   for (int i = 0; i < size(); ++i) {
-    double std = gyro_bias_std_, value = 0.0;
+    double std = gyro_bias_std_, value = 0.0, tail = -std::numeric_limits<double>::infinity();
     if (i < constants_count()) {
       const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
       if (!c.prior_std) continue;
       std = *c.prior_std, value = c.prior_value;
+      if (c.positive && factor(i) < 0) tail = kVanishing * value;
     }
-    terms.residual[i] = (physical(u, i) - value) / std;
-    terms.slope[i] = slope(u, i) / std;
+    const double at = physical(u, i);
+    const bool vanishes = at < tail;
+    terms.residual[i] = ((vanishes ? tail + tail * std::log(at / tail) : at) - value) / std;
+    terms.slope[i] = (vanishes ? tail : slope(u, i)) / std;
   }
   return terms;
 }

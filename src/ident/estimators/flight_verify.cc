@@ -17,6 +17,31 @@ struct Sums {
   double error2 = 0, measured2 = 0, simulated2 = 0, mean = 0, spread2 = 0, n = 0;
 };
 
+// Beyond this many times what a channel ever showed a simulation says nothing more of the flight.
+constexpr double kRunAway = 100.0;
+
+// Whether a simulated window ran away: `residuals` of its rows, weighted; `largest` of each channel.
+bool is_lost(const std::vector<double>& residuals, const FlightArc& arc, const ChunkPlace& place,
+             const NoiseModel& noise, const std::array<double, kChannels>& largest) {
+  for (std::size_t i = place.begin; i < place.end; ++i)
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      if (!std::isfinite(arc.y[i * kChannels + c])) continue;
+      const double r = residuals[(i - place.begin) * kChannels + c] * noise.sigma[c];
+      const bool angle = c >= kAttitude && c < kVelocity;  // never more than a turn
+      if (!std::isfinite(r) || (!angle && std::abs(r) > kRunAway * largest[c])) return true;
+    }
+  return false;
+}
+
+std::array<double, kChannels> largest_of(const FlightRecord& record) {
+  std::array<double, kChannels> largest{};
+  for (const FlightArc& arc : record.arcs)
+    for (std::size_t i = 0; i < arc.y.size(); ++i)
+      if (std::isfinite(arc.y[i]))
+        largest[i % kChannels] = std::max(largest[i % kChannels], std::abs(arc.y[i]));
+  return largest;
+}
+
 }  // namespace
 
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon) {
@@ -34,12 +59,17 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   smoother.unlink();
   smoother.settle(Eigen::VectorXd::Zero(theta.size()), 4);
   const auto residuals = smoother.residuals();
+  const std::array<double, kChannels> largest = largest_of(record);
+  std::size_t ran_away = 0;
   std::array<Sums, kChannels> sums;
   std::array<Series, kChannels> measured, simulated;
-  std::vector<std::array<double, kChannels>> at;
   for (std::size_t k = 0; k < smoother.chunks().size(); ++k) {
     const ChunkPlace& place = smoother.chunks()[k];
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+    if (is_lost(residuals[k], arc, place, noise, largest)) {
+      ran_away += 1;
+      continue;
+    }
     for (std::size_t i = place.begin; i < place.end; ++i) {
       for (std::size_t c = 0; c < kChannels; ++c) {
         const double r = residuals[k][(i - place.begin) * kChannels + c] * noise.sigma[c];
@@ -91,11 +121,18 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   result.fit["channels"] = channels;
   result.fit["horizon"] = horizon;
   result.fit["seconds"] = record.duration;
+  result.fit["windows"] = smoother.chunks().size();
+  result.fit["ran_away"] = ran_away;
   result.sections.push_back(data_health(record, logs, noise));
   result.sections.push_back(section);
   result.verdict =
       fmt::format("The model as stated was run against {:.0f} s of flight in windows of {:.2g} s.",
                   record.duration, horizon);
+  if (ran_away > 0)
+    result.verdict += fmt::format(
+        " {} of the {} simulations ran away from the flight altogether; the errors below are those of the "
+        "others.",
+        ran_away, smoother.chunks().size());
   if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;
 }

@@ -212,6 +212,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Json steps = Json::array();
   for (const SearchStep& s : search.steps) steps.push_back({{"adopted", s.name}, {"gain", s.gain}});
   result.extra["search"] = steps;
+  if (const LevelThrust& seen = search.thrust; std::isfinite(seen.n))
+    result.extra["level_thrust"] = {
+        {"n", seen.n},       {"n_std", seen.n_std},         {"varies", seen.varies},
+        {"left", seen.left}, {"stretches", seen.stretches}, {"plain", seen.plain()}};
   result.extra["explained"] = search.explained();
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);

@@ -4,8 +4,25 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/effects/catalogue.h"
 
 namespace ident {
+namespace {
+
+// An effect taken up that the fit drove beyond what it can physically be. A payload's place is the ratio of
+// two unknowns: where its mass is not seen it may be anywhere, and a verdict says so.
+bool beyond_physics(const FittedModel& model) {
+  for (std::size_t i = 0; i < model.constants.size(); ++i) {
+    const FreeConstant& c = model.constants[i];
+    const EffectParameter* effect = find_effect_parameter(c.name);
+    if (!c.adopted || !effect || c.name.starts_with("payload.")) continue;
+    const double value = model.theta->physical(model.fit.u, static_cast<int>(i));
+    if (std::abs(value - effect->null_value) > effect->limit) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
                    const FlightRecord& record, const std::vector<double>& p,
@@ -29,7 +46,7 @@ FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> a
 
 bool stands(const FittedModel& model) {
   const FlightFit& fit = model.fit;
-  return fit.converged && fit.covariance.allFinite() && fit.information.allFinite();
+  return fit.converged && fit.covariance.allFinite() && fit.information.allFinite() && !beyond_physics(model);
 }
 
 }  // namespace ident

@@ -21,7 +21,7 @@ struct FittedModel {
 FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> adopted,
                    const FlightRecord& record, const std::vector<double>& p, const FlightFitOptions& options);
 
-/// Whether it could be simulated to the end and left a covariance.
+/// Whether it could be simulated to the end and left a covariance, with effects of sizes that are possible.
 bool stands(const FittedModel& model);
 
 }  // namespace ident

@@ -47,6 +47,7 @@ class Search {
       if (left == 0 || !exchange()) break;
     }
     if (free_ && now_.model.adopted.empty()) base_is(std::move(*free_));
+    add_plain_battery();
     // Those that still gain beside what was found.
     for (const int c : places_of(fell_, now_.problem))
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
@@ -196,6 +197,21 @@ class Search {
     out_.steps.push_back({"payload", gain});
     now_ = std::move(payload->at);
     return true;
+  }
+
+  // Beside causes that are not of the catalogue the slow work of a battery passes for gusts, and gains too
+  // little; the thrust itself shows it.
+  void add_plain_battery() {
+    out_.thrust = level_thrust(record_, p_);
+    const auto is_it = [](const Candidate& c) { return c.name == "battery_sag"; };
+    const auto battery = std::ranges::find_if(now_.problem.candidates, is_it);
+    if (!out_.thrust.plain() || battery == now_.problem.candidates.end() ||
+        std::ranges::any_of(now_.model.adopted, is_it))
+      return;
+    tell(0.1, battery->name);
+    const auto c = static_cast<int>(battery - now_.problem.candidates.begin());
+    if (auto next = tried_in_full(record_, vehicle_, options_.exclude, now_, c, fit_))
+      adopt(Candidate(*battery), std::move(*next), further(now_, now_.have, c).honest());
   }
 
   // Motors whose lag was taken for wrong before anything else was known: not if with what was found since

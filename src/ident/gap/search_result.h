@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ident/gap/by_channel.h"
+#include "ident/gap/level_thrust.h"
 #include "ident/gap/weigh_sets.h"
 
 namespace ident {
@@ -25,6 +26,7 @@ struct SearchResult {
   std::vector<SearchStep>
       alone;  ///< what each cause found gains beside the others under the noise they leave
   std::vector<std::vector<Asked>> asked;  ///< of each cause found by the channels, one by one
+  LevelThrust thrust;                     ///< what the battery does to it, whatever else is in the model
   std::vector<std::string>
       ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 

@@ -27,6 +27,8 @@ constexpr double kTold = 0.05;
 constexpr std::ptrdiff_t kMostNames = 3;
 // Slower motors, s of lag, no multirotor flies with: a model that asks for them has left the commands aside.
 constexpr double kSlowestLag = 0.2;
+// And none swings with less damping: such a one does the work of something else.
+constexpr double kLeastDamping = 0.2;
 constexpr double kMostRemains = 0.5;
 
 // The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
@@ -153,6 +155,11 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
   return out;
 }
 
+// A cause that is there whatever else is, and what is said of it.
+struct PlainCause {
+  std::string name, sentence;
+};
+
 // The motors' lag where it was found wrong by more than anything else that a model lacks would make of it.
 const Parameter* plainly_wrong_lag(const SearchResult& search, const std::vector<Parameter>& fitted) {
   const auto is_it = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
@@ -161,8 +168,26 @@ const Parameter* plainly_wrong_lag(const SearchResult& search, const std::vector
   if (std::ranges::none_of(search.best.adopted, is_it) || omega_m == fitted.end() || zeta_m == fitted.end() ||
       !omega_m->prior_value)
     return nullptr;
-  const bool flies = 2 * zeta_m->value / omega_m->value < kSlowestLag;
+  const bool flies = 2 * zeta_m->value / omega_m->value < kSlowestLag && zeta_m->value > kLeastDamping;
   return flies && lag_beyond_physics(omega_m->value, *omega_m->prior_value) ? &*omega_m : nullptr;
+}
+
+std::vector<PlainCause> plain_causes(const SearchResult& search, const std::vector<Parameter>& fitted) {
+  std::vector<PlainCause> out;
+  if (const Parameter* lag = plainly_wrong_lag(search, fitted))
+    out.push_back({"parameter:omega_m",
+                   fmt::format("The motors are not what was stated: omega_m is {} rad/s instead of {}, and "
+                               "nothing else that a model can lack makes such a difference.",
+                               format_number(lag->value, 3), format_number(*lag->prior_value, 3))});
+  const bool battery =
+      std::ranges::any_of(search.best.adopted, [](const Candidate& c) { return c.name == "battery_sag"; });
+  if (const LevelThrust& seen = search.thrust; battery && seen.plain())
+    out.push_back(
+        {"battery_sag",
+         fmt::format("The battery shows in every log: thrust for the same commands varies by {:.1f} %, by "
+                     "{:.1f} % where rotor speeds go with the voltage to the power of {}.",
+                     100 * seen.varies, 100 * seen.left, format_number(seen.n, 2))});
+  return out;
 }
 
 }  // namespace
@@ -171,17 +196,18 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted) {
   Judged out = judge_all(search, gap, rival, lines, jumps, fitted);
-  const Parameter* lag = plainly_wrong_lag(search, fitted);
-  if (!lag || out.status != "unknown" || (std::isfinite(gap.closed) && gap.ci95[1] < kMostRemains))
+  const std::vector<PlainCause> plain = plain_causes(search, fitted);
+  if (plain.empty() || out.status != "unknown" || (std::isfinite(gap.closed) && gap.ci95[1] < kMostRemains))
     return out;
-  // What else is there, and whether it can be told, changes nothing of this.
+  // What else is there, and whether it can be told, changes nothing of these.
   const std::string rest = std::exchange(out.sentence, {});
-  out.status = "identified", out.effects = {"parameter:omega_m"}, out.confused_with.clear();
+  out.status = "identified", out.effects.clear(), out.confused_with.clear();
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
-  out.sentence = fmt::format(
-      "The motors are not what was stated: omega_m is {} rad/s instead of {}, and nothing else that a model "
-      "can lack makes such a difference. With that alone the gap is not explained. {}",
-      format_number(lag->value, 3), format_number(*lag->prior_value, 3), rest);
+  for (const PlainCause& cause : plain) {
+    out.effects.push_back(cause.name);
+    out.sentence += cause.sentence + " ";
+  }
+  out.sentence += "With that alone the gap is not explained. " + rest;
   return out;
 }
 
