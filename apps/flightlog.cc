@@ -17,6 +17,7 @@ struct Options {
 /// A model simulated against the logs, with what is left over.
 Result verified(const Vehicle& vehicle, const FlightInput& input, double horizon) {
   Result result = verify_flight(vehicle, input.logs, horizon);
+  if (result.has_warning("no_turning")) return result;  // nothing was simulated
   result.sections.push_back(simulation_residuals(result.sections.back()));
   return result;
 }
@@ -40,7 +41,8 @@ Outcome run(const Options& options, Context& context) {
   refine.shown = context.shown;
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
-  if (refine.shown != Shown::numbers) verify_too(result, input, options.horizon);
+  const bool simulated = !result.has_warning("no_turning");
+  if (refine.shown != Shown::numbers && simulated) verify_too(result, input, options.horizon);
   if (input.campaign)
     context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
   return result;

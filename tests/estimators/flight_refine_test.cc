@@ -72,7 +72,7 @@ TEST(FlightRefine, ExactLogsOfAFinerIntegratorGiveTheConstantsBackButForTheStep)
   expect_found(refine_flight(as_measured(truth), flights(truth, options), {.validate = false}), truth, 1e-5);
 }
 
-TEST(FlightRefine, APathWithoutRatesAndAttitudeIsRefusedInSoManyWords) {
+TEST(FlightRefine, AMomentsPathWithoutRatesAndAttitudeIsRefusedInSoManyWords) {
   SimulationOptions options;
   options.duration = 5.0;
   std::vector<FlightLog> logs = flights(feasible(), options);

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "ident/effects/catalogue.h"
-
 #include "support/published_hover.h"
 
 namespace ident {

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "ident/io/read_flight_log.h"
 #include "ident/model/vehicle.h"
 
 namespace ident {
@@ -23,6 +24,27 @@ inline Vehicle arplab_crazyflie() {
        {std::tuple{0.028, 0.028, 1}, {-0.028, 0.028, -1}, {-0.028, -0.028, 1}, {0.028, -0.028, -1}})
     vehicle.rotors.push_back({.r_B = {x, y, 0.0}, .s = s});
   return vehicle;
+}
+
+/// A Crazyflie 2.1 of crazypad, with constants known as well as a stranger knows them.
+inline Vehicle crazypad_crazyflie() {
+  Vehicle vehicle;
+  for (const auto& [x, y, s] :
+       {std::tuple{0.0325, 0.0325, 1}, {-0.0325, 0.0325, -1}, {-0.0325, -0.0325, 1}, {0.0325, -0.0325, -1}})
+    vehicle.rotors.push_back({.r_B = {x, y, 0.0}, .s = s});
+  const auto state = [&](const char* name, double value, double std) {
+    vehicle.parameters[name] = {value, std};
+  };
+  state("m", 0.0335, 1.5e-3), state("kT", 2.9e-8, 3e-9), state("kQ", 2e-10, 5e-11), state("km", 2400, 300);
+  state("Omega_0", 300, 100), state("omega_m", 30, 5), state("zeta_m", 1, 0.2);
+  state("Jxx", 1.6e-5, 2e-6), state("Jyy", 1.6e-5, 2e-6), state("Jzz", 2.9e-5, 4e-6);
+  vehicle.battery_voltage = 4.2;
+  return vehicle;
+}
+
+inline FlightLog crazypad_flight(const std::string& folder, const std::string& name, const Vehicle& vehicle) {
+  return read_flight_log(folder + "/flight/crazypad/" + name + ".csv", vehicle,
+                         read_log_map(std::string(IDENT_SOURCE_DIR) + "/data/maps/crazypad_crazyflie.yaml"));
 }
 
 }  // namespace ident

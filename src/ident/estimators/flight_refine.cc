@@ -15,6 +15,7 @@
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_traces.h"
+#include "ident/estimators/flight_trim.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -23,31 +24,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
-
-void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
-  for (const Parameter& p : result.parameters) {
-    const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
-    if (p.pull && heard && std::abs(*p.pull) > 3) {
-      result.warn(
-          "prior_disagrees",
-          fmt::format(
-              "{}: flight says {}, the value given beforehand was {} ({:+.1f} standard deviations): one of "
-              "the two is wrong, or the model lacks an effect (try ident gap)",
-              p.name, format_with_uncertainty(p.value, p.std),
-              format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull));
-    }
-  }
-  std::string unknown;
-  for (const Parameter& p : result.parameters)
-    if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;
-  if (!unknown.empty()) {
-    std::string text = "these logs do not determine " + unknown;
-    const std::vector<std::string> pairs = combinations(theta, fit, result.parameters);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
-    result.warn("not_identifiable", text);
-  }
-}
 
 std::vector<std::string> with_command_offset(std::vector<std::string> names) {
   names.push_back("Omega_0");
@@ -158,6 +134,31 @@ std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
   return out;
 }
 
+void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
+  for (const Parameter& p : result.parameters) {
+    const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
+    if (p.pull && heard && std::abs(*p.pull) > 3) {
+      result.warn(
+          "prior_disagrees",
+          fmt::format(
+              "{}: flight says {}, the value given beforehand was {} ({:+.1f} standard deviations): one of "
+              "the two is wrong, or the model lacks an effect (try ident gap)",
+              p.name, format_with_uncertainty(p.value, p.std),
+              format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull));
+    }
+  }
+  std::string unknown;
+  for (const Parameter& p : result.parameters)
+    if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;
+  if (!unknown.empty()) {
+    std::string text = "these logs do not determine " + unknown;
+    const std::vector<std::string> pairs = combinations(theta, fit, result.parameters);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
+    result.warn("not_identifiable", text);
+  }
+}
+
 Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise) {
   Section section;
   section.title = "Data health";
@@ -183,6 +184,12 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   Result result;
   result.command = "flightlog";
   const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  if (only_trim(record.signals)) {
+    refine_trim(result, record, p, options.free);
+    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
+    return result;
+  }
   require_turning(record.signals);
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
   if (!record.signals.commands) leave_out_motors(constants);

@@ -36,6 +36,9 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
 std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
                                       const std::vector<Parameter>& parameters);
 
+/// Warns where the flight disagrees with what was known beforehand, and of what it does not determine.
+void warn_about(Result& result, const Theta& theta, const FlightFit& fit);
+
 /// Data health: rates, arcs, noise levels, units and frames as they were decided.
 Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise);
 

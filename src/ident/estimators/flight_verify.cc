@@ -9,6 +9,7 @@
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/estimators/flight_trim.h"
 
 namespace ident {
 namespace {
@@ -48,6 +49,12 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   Result result;
   result.command = "flightlog";
   const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  if (only_trim(record.signals)) {
+    verify_trim(result, record, p);
+    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
+    return result;
+  }
   const Theta theta(p, {}, record.logs, record.signals.rates);
   // States at the start of every window, from the log itself; the constants stay as stated.
   const NoiseModel noise = initial_noise(record);

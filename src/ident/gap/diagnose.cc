@@ -14,7 +14,9 @@
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/estimators/flight_trim.h"
 #include "ident/gap/causes_tried.h"
+#include "ident/gap/diagnose_trim.h"
 #include "ident/gap/evidence.h"
 #include "ident/gap/gap_sections.h"
 #include "ident/gap/generic_rival.h"
@@ -82,18 +84,6 @@ std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& 
   return out;
 }
 
-Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
-  Vehicle out = vehicle;
-  const Theta& theta = *model.theta;
-  for (int i = 0; i < theta.constants_count(); ++i) {
-    const std::string& name = theta.constants()[static_cast<std::size_t>(i)].name;
-    out.parameters[name] = {theta.physical(model.fit.u, i),
-                            theta.deviation(model.fit.u, i, model.fit.covariance)};
-  }
-  for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
-  return out;
-}
-
 }  // namespace
 
 Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
@@ -103,6 +93,18 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.command = "gap";
   require_known(options.exclude);
   const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  if (only_trim(record.signals)) {
+    out.adopted = diagnose_trim(result, record, p, options.exclude);
+    if (const std::string wrong = disqualified(tested); !wrong.empty()) {
+      result.extra["verdict"] = {{"status", "unknown"},
+                                 {"effects", Json::array()},
+                                 {"confused_with", Json::array()},
+                                 {"sentence", wrong}};
+      distrust(result, wrong);
+    }
+    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    return out;
+  }
   require_turning(record.signals);
   SearchOptions search_options{options.exclude, options.most_causes, options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);

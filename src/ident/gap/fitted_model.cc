@@ -49,4 +49,16 @@ bool stands(const FittedModel& model) {
   return fit.converged && fit.covariance.allFinite() && fit.information.allFinite() && !beyond_physics(model);
 }
 
+Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
+  Vehicle out = vehicle;
+  const Theta& theta = *model.theta;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const std::string& name = theta.constants()[static_cast<std::size_t>(i)].name;
+    out.parameters[name] = {theta.physical(model.fit.u, i),
+                            theta.deviation(model.fit.u, i, model.fit.covariance)};
+  }
+  for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
+  return out;
+}
+
 }  // namespace ident

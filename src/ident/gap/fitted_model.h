@@ -24,4 +24,7 @@ FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> a
 /// Whether it could be simulated to the end and left a covariance, with effects of sizes that are possible.
 bool stands(const FittedModel& model);
 
+/// The vehicle with the constants and effects of that fit, and their deviations.
+Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model);
+
 }  // namespace ident

@@ -222,8 +222,11 @@ Section traces(const ResidualWrench& before, const ResidualWrench& after) {
 std::vector<Section> gap_sections(const Json& found, const ResidualWrench& before,
                                   const ResidualWrench& after, const GapEvidence& evidence) {
   const std::string causes = fmt::format("{}", fmt::join(causes_of(found), " and "));
-  std::vector<Section> sections{how_section(found, causes)};
-  std::ranges::copy(evidence.held_out, std::back_inserter(sections.front().plots));
+  std::vector<Section> sections;
+  if (!found["gap"]["horizons"].empty()) {  // empty where nothing can be simulated
+    sections.push_back(how_section(found, causes));
+    std::ranges::copy(evidence.held_out, std::back_inserter(sections.front().plots));
+  }
   if (Section which = which_section(found); !which.tables.empty() || !which.plots.empty())
     sections.push_back(std::move(which));
   std::ranges::move(signature_sections(evidence.signatures), std::back_inserter(sections));

@@ -1,0 +1,116 @@
+// The diagnosis of flights without rates and attitude.
+#include <gtest/gtest.h>
+
+#include "ident/estimators/flight_refine.h"
+#include "ident/gap/diagnose.h"
+#include "support/path_only.h"
+#include "support/real_data.h"
+
+namespace ident {
+namespace {
+
+using testing::path_only;
+using testing::with_ratios;
+using Json = nlohmann::ordered_json;
+
+// A flight of `truth` against equal rotors that are known to that share.
+Diagnosis of_flight(const Vehicle& truth, double known = 0.02) {
+  const Vehicle model = with_ratios(testing::upright(), {1, 1, 1, 1}, known);
+  const std::vector<FlightLog> logs{path_only(truth, 5)};
+  return diagnose_gap(model, logs);
+}
+
+const Json* candidate(const Diagnosis& found, const std::string& name) {
+  for (const Json& c : found.result.extra["candidates"])
+    if (c["effect"] == name) return &c;
+  return nullptr;
+}
+
+TEST(DiagnoseTrim, NothingIsFoundWhereNothingIs) {
+  const Diagnosis found = of_flight(testing::upright());
+  EXPECT_EQ(found.result.extra["verdict"]["status"], "none");
+  EXPECT_TRUE(found.result.has_warning("no_turning"));
+  EXPECT_FALSE(found.result.has_warning("rotors_unknown"));
+  EXPECT_TRUE(found.result.extra["gap"]["closed"].is_null());
+}
+
+TEST(DiagnoseTrim, AWeakRotorIsNamedAboveTheSizeThatIsSaidToBeSeen) {
+  const Vehicle whole = testing::upright();
+  const Diagnosis found = of_flight(with_ratios(whole, {1, 1, 0.8, 1}));
+  const Json& verdict = found.result.extra["verdict"];
+  EXPECT_NE(verdict["status"], "none");
+  EXPECT_NE(verdict["status"], "unknown") << verdict;
+  EXPECT_EQ(verdict["effects"][0], "rotor_mismatch") << verdict;
+  const Json& parameters = (*candidate(found, "rotor_mismatch"))["parameters"];
+  EXPECT_EQ(parameters["rotor_mismatch.rotor"]["value"], 3);
+  EXPECT_NEAR(parameters["rotor_mismatch.ratio"]["value"].get<double>(), 0.8, 0.06);
+  const double limit = (*candidate(found, "rotor_mismatch"))["detection_limit"]["rotor_mismatch.ratio"];
+  EXPECT_LT(limit, 0.2);
+  const Diagnosis weak = of_flight(with_ratios(whole, {1, 1, 1 - 0.3 * limit, 1}));
+  EXPECT_EQ(weak.result.extra["verdict"]["status"], "none");
+}
+
+TEST(DiagnoseTrim, AShiftedCentreOfGravityIsNoWeakRotor) {
+  Vehicle truth = testing::upright();
+  truth.parameters["cg_offset.x"] = {0.02, {}}, truth.parameters["cg_offset.y"] = {-0.015, {}};
+  const Diagnosis found = of_flight(truth);
+  const Json& verdict = found.result.extra["verdict"];
+  EXPECT_NE(verdict["status"], "none");
+  ASSERT_FALSE(verdict["effects"].empty()) << verdict;
+  EXPECT_EQ(verdict["effects"][0], "cg_offset") << verdict;
+}
+
+TEST(DiagnoseTrim, AWrongThrustOnTheWholeIsNotAscribedToOneOfItsConstants) {
+  Vehicle model = with_ratios(testing::upright(), {1, 1, 1, 1}, 0.02);
+  for (const char* name : {"kT", "km"}) model.parameters.at(name).std = 0.03 * model.value(name);
+  Vehicle truth = testing::upright();
+  truth.parameters.at("kT").value *= 0.7;
+  const Diagnosis found = diagnose_gap(model, std::vector<FlightLog>{path_only(truth, 5)});
+  const Json& verdict = found.result.extra["verdict"];
+  EXPECT_EQ(verdict["status"], "unknown");
+  EXPECT_EQ(verdict["confused_with"], (Json{"parameter:kT", "parameter:km"})) << verdict;
+}
+
+TEST(DiagnoseTrim, ASaggingBatteryDriftsAndIsFound) {
+  Vehicle model = with_ratios(testing::upright(), {1, 1, 1, 1}, 0.02);
+  model.battery_voltage = 12.0;
+  for (const char* name : {"kT", "km"}) model.parameters.at(name).std = 0.03 * model.value(name);
+  Vehicle truth = testing::upright();
+  truth.battery_voltage = 12.0, truth.parameters["battery_sag.n"] = {0.7, {}};
+  const FlightLog log = path_only(truth, 5, {.seconds = 60.0, .battery = true});
+  const Diagnosis found = diagnose_gap(model, std::vector<FlightLog>{log});
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], Json{"battery_sag"});
+  EXPECT_NEAR((*candidate(found, "battery_sag"))["parameters"]["battery_sag.n"]["value"].get<double>(), 0.7,
+              0.15);
+}
+
+TEST(DiagnoseTrim, WhereNobodyKnowsTheRotorsThatIsSaid) {
+  const std::vector<FlightLog> logs{path_only(with_ratios(testing::upright(), {1, 1, 0.9, 1}), 5)};
+  const Diagnosis found = diagnose_gap(testing::upright(), logs);
+  EXPECT_EQ(found.result.extra["verdict"]["status"], "none");
+  EXPECT_TRUE(found.result.has_warning("rotors_unknown"));
+  EXPECT_GT((*candidate(found, "rotor_mismatch"))["detection_limit"]["rotor_mismatch.ratio"].get<double>(),
+            0.2);
+}
+
+// Normal flights, and one with a blade that is 1 mm shorter, which lies within what normal flights differ by.
+TEST(DiagnoseTrim, AMillimetreOfABladeIsNotToldFromNormalFlights) {
+  IDENT_NEEDS_REAL_DATA(folder);
+  Vehicle vehicle = crazypad_crazyflie();
+  std::vector<FlightLog> normal;
+  for (const char* name : {"00", "02"})
+    normal.push_back(crazypad_flight(folder, std::string("m_normal_flight__E9_log") + name, vehicle));
+  for (const Parameter& p : refine_flight(vehicle, normal).parameters)
+    vehicle.parameters[p.name] = {p.value, p.std};
+  for (const char* name : {"m_normal_flight__E9_log03", "m_cut_propeller_M3_1mm__E9_log03"}) {
+    const std::vector<FlightLog> logs{crazypad_flight(folder, name, vehicle)};
+    const Diagnosis found = diagnose_gap(vehicle, logs);
+    EXPECT_EQ(found.result.extra["verdict"]["status"], "none") << name << found.result.extra["verdict"];
+    const double limit = (*candidate(found, "rotor_mismatch"))["detection_limit"]["rotor_mismatch.ratio"];
+    EXPECT_GT(limit, 0.08);
+    EXPECT_LT(limit, 0.25);
+  }
+}
+
+}  // namespace
+}  // namespace ident
