@@ -32,10 +32,11 @@ TEST(FlightTrim, UnequalRotorsAreFoundFromCommandsAndPath) {
   const Vehicle stated = testing::upright();
   const Ratios truth = about_their_mean({0.93, 1.04, 0.98, 1.05});
   for (const bool velocity : {true, false}) {
-    const std::vector<FlightLog> logs{path_only(with_ratios(stated, truth), 1,
-                                                {.noise = "none", .velocity = velocity})};
+    const std::vector<FlightLog> logs{
+        path_only(with_ratios(stated, truth), 1, {.noise = "none", .velocity = velocity})};
     const Result result = refine_flight(stated, logs);
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(ratio(result, k), truth[k], 0.012) << k;  // some of it may be scatter
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(ratio(result, k), truth[k], 0.012) << k;  // some of it may be scatter
     EXPECT_TRUE(result.has_warning("no_turning"));
     EXPECT_TRUE(result.has_warning("one_flight"));
     EXPECT_TRUE(result.find("rotor_mismatch.ratio@1")->identifiable);
@@ -83,8 +84,8 @@ TEST(FlightTrim, IntervalsHoldTheRotorsOfTheNextFlight) {
     };
     std::vector<FlightLog> logs;
     for (int log = 0; log < 3; ++log)
-      logs.push_back(path_only(with_ratios(stated, flown()),
-                               static_cast<std::uint64_t>(10 * draw + log + 1), {.seconds = 12.0}));
+      logs.push_back(path_only(with_ratios(stated, flown()), static_cast<std::uint64_t>(10 * draw + log + 1),
+                               {.seconds = 12.0}));
     const Result result = refine_flight(stated, logs);
     const Ratios next = flown();
     for (std::size_t k = 0; k < 4; ++k) {

@@ -37,7 +37,8 @@ inline FlightLog path_only(const Vehicle& vehicle, std::uint64_t seed, const Pat
 }
 
 /// The vehicle with those thrusts of its rotors, relative to what is stated.
-inline Vehicle with_ratios(Vehicle vehicle, const std::vector<double>& ratios, std::optional<double> std = {}) {
+inline Vehicle with_ratios(Vehicle vehicle, const std::vector<double>& ratios,
+                           std::optional<double> std = {}) {
   for (std::size_t k = 0; k < ratios.size(); ++k)
     vehicle.parameters["rotor_mismatch.ratio@" + std::to_string(k + 1)] = {ratios[k], std};
   return vehicle;

@@ -57,22 +57,23 @@ double needed_at(const FlightArc& arc, const Path& path, double g, double t) {
   for (int k = 0; k < 3; ++k) {
     const auto at = [&](double s) { return interpolated(arc, path.channel + k, s); };
     const double h = path.order * kDifference;
-    a[k] = path.order == 1 ? (at(t + h) - at(t - h)) / (2 * h)
-                           : (at(t + h) - 2 * at(t) + at(t - h)) / (h * h);
+    a[k] =
+        path.order == 1 ? (at(t + h) - at(t - h)) / (2 * h) : (at(t + h) - 2 * at(t) + at(t - h)) / (h * h);
   }
   return (a - Eigen::Vector3d(0, 0, g)).norm();
 }
 
-// What the model's rotors do on the average of a stretch, with the vehicle level: thrust over mass, m/s^2, and moments about the centre of gravity over thrust, m.
+// What the model's rotors do on the average of a stretch, with the vehicle level: thrust over mass, m/s^2,
+// and moments about the centre of gravity over thrust, m.
 Eigen::Vector4d mean_wrench(const FlightRecord& record, const std::vector<double>& p, const TrimStretch& s) {
   const FlightArc& arc = record.arcs[static_cast<std::size_t>(s.arc)];
   const EffectSet<double> effects(p, active_effects(p));
   Flight<double, EffectSet<double>> flight(*record.vehicle, p, effects, *arc.inputs);
   const double high = record.vehicle->ground_z - 1e3;  // no ground effect
-  FlightState<double> level{{Vec4<double>(1, 0, 0, 0), Vec3<double>::Zero(), Vec3<double>::Zero(),
-                             Vec3<double>(0, 0, high)},
-                            {},
-                            {}};
+  FlightState<double> level{
+      {Vec4<double>(1, 0, 0, 0), Vec3<double>::Zero(), Vec3<double>::Zero(), Vec3<double>(0, 0, high)},
+      {},
+      {}};
   const std::size_t rotors = record.vehicle->rotors.size();
   const double from = arc.t[s.begin], to = arc.t[s.end - 1];
   double t = std::max(from - kEnds, arc.t.front());
@@ -148,9 +149,9 @@ MatrixXd about_means(const Trim& trim, const VectorXd& y) {
   return out;
 }
 
-// Scatter of stretches about the mean of their log. A slow drift, of a battery that the model lacks, counts as
-// noise: where it passed for information, the offset of the command would bend to follow it, and with it what
-// the rotors' commands say of their thrust.
+// Scatter of stretches about the mean of their log. A slow drift, of a battery that the model lacks, counts
+// as noise: where it passed for information, the offset of the command would bend to follow it, and with it
+// what the rotors' commands say of their thrust.
 Eigen::Vector4d noise_of(const Trim& trim, const VectorXd& y) {
   const double degrees = static_cast<double>(trim.stretches.size()) - trim.logs;
   if (degrees < 1) return Eigen::Vector4d::Constant(kUsualScatter);
@@ -244,7 +245,8 @@ VectorXd unbalance(const FlightRecord& record, const Trim& trim, const std::vect
     Eigen::Vector4d w = mean_wrench(record, p, trim.stretches[k]);
     w[0] = w[0] / trim.stretches[k].needed - 1;
     w.tail<3>() /= trim.reach;
-    // Balanced is balanced whatever the drag on the whole: less of it would only make an unbalance look small.
+    // Balanced is balanced whatever the drag on the whole: less of it would only make an unbalance look
+    // small.
     w[3] *= trim.drag * p[param::kT] / p[param::kQ];
     y.segment<kTrimChannels>(kTrimChannels * static_cast<Index>(k)) = w;
   }
@@ -257,8 +259,7 @@ MatrixXd trim_slopes(const FlightRecord& record, const Trim& trim, const Theta& 
   for (int i = 0; i < theta.constants_count(); ++i) {
     VectorXd more = u, less = u;
     more[i] += h, less[i] -= h;
-    Y.col(i) =
-        (unbalance(record, trim, theta.p(more)) - unbalance(record, trim, theta.p(less))) / (2 * h);
+    Y.col(i) = (unbalance(record, trim, theta.p(more)) - unbalance(record, trim, theta.p(less))) / (2 * h);
   }
   return Y;
 }
@@ -284,22 +285,20 @@ TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& thet
       out.noise = noise_of(trim, out.y);
       const VectorXd priors = prior.slope.cwiseProduct(prior.residual) + common * common.dot(u);
       const VectorXd expected = out.y - Y * Eigen::LDLT<MatrixXd>(known).solve(priors);
-      out.scatter =
-          scatter_known && trim.logs < 2  // it is in their deviations
-              ? 0.0
-              : scatter_of(trim, expected, out.noise, A,
-                           Y * Eigen::LDLT<MatrixXd>(known).solve(MatrixXd(Y.transpose())));
+      out.scatter = scatter_known && trim.logs < 2  // it is in their deviations
+                        ? 0.0
+                        : scatter_of(trim, expected, out.noise, A,
+                                     Y * Eigen::LDLT<MatrixXd>(known).solve(MatrixXd(Y.transpose())));
       out.V = covariance(trim, out.noise, A, out.scatter);
     }
     const Eigen::LLT<MatrixXd> V(out.V);
     const MatrixXd WY = V.solve(Y);
     out.fit.information = Y.transpose() * WY;
     H = out.fit.information + known;
-    const VectorXd g = WY.transpose() * out.y + prior.slope.cwiseProduct(prior.residual) +
-                       common * common.dot(u);
+    const VectorXd g =
+        WY.transpose() * out.y + prior.slope.cwiseProduct(prior.residual) + common * common.dot(u);
     const VectorXd du = -Eigen::LDLT<MatrixXd>(H).solve(g);
-    out.fit.cost = out.y.dot(V.solve(out.y)) + prior.residual.squaredNorm() +
-                   std::pow(common.dot(u), 2);
+    out.fit.cost = out.y.dot(V.solve(out.y)) + prior.residual.squaredNorm() + std::pow(common.dot(u), 2);
     double widest = 1.0;  // of a logarithm
     for (int i = 0; i < theta.constants_count(); ++i)
       if (theta.constants()[static_cast<std::size_t>(i)].positive) widest = std::max(widest, std::abs(du[i]));
@@ -309,8 +308,10 @@ TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& thet
   out.fit.covariance = Eigen::LDLT<MatrixXd>(H).solve(MatrixXd::Identity(H.rows(), H.cols()));
   out.fit.naive_covariance = out.fit.covariance;
   out.fit.converged = u.allFinite() && out.fit.covariance.allFinite();
-  out.beyond = out.fit.cost - (out.noise.cwiseInverse().asDiagonal() * about_means(trim, out.y)).squaredNorm();
-  if (!out.fit.converged) throw DataError("the balance of these flights cannot be fitted: no number comes of it");
+  out.beyond =
+      out.fit.cost - (out.noise.cwiseInverse().asDiagonal() * about_means(trim, out.y)).squaredNorm();
+  if (!out.fit.converged)
+    throw DataError("the balance of these flights cannot be fitted: no number comes of it");
   return out;
 }
 
@@ -323,7 +324,8 @@ Warning without_turning() {
 }
 
 std::string scatter_in_words(const Trim& trim, double scatter) {
-  if (scatter == 0) return "What a rotor's thrust scatters by from flight to flight is in its deviation as stated.";
+  if (scatter == 0)
+    return "What a rotor's thrust scatters by from flight to flight is in its deviation as stated.";
   return fmt::format("From flight to flight the thrust of a rotor for a command scatters by {:.1f} %{}.",
                      100 * scatter, trim.logs == 1 ? ", as is usual: one flight does not tell" : "");
 }
@@ -332,7 +334,8 @@ Section trim_section(const FlightRecord& record, const Trim& trim, const VectorX
   Section section;
   section.title = "Balance of the rotors";
   section.text = fmt::format(
-      "Thrust and moments of the rotors at the speeds of their commands, over {} stretches of {:.0f} s or more "
+      "Thrust and moments of the rotors at the speeds of their commands, over {} stretches of {:.0f} s or "
+      "more "
       "in {} log{}.",
       trim.stretches.size(), kShortest, trim.logs, trim.logs == 1 ? "" : "s");
   Table table{"What is left, in % of the weight (moments: of thrust times arm)",
@@ -406,7 +409,8 @@ void refine_trim(Result& result, const FlightRecord& record, const std::vector<d
   int known = 0;
   for (const Parameter& q : result.parameters) known += q.identifiable;
   result.verdict = fmt::format(
-      "Without rates or attitude {:.0f} s of flight tell the balance of the rotors only: {} of {} parameters.",
+      "Without rates or attitude {:.0f} s of flight tell the balance of the rotors only: {} of {} "
+      "parameters.",
       record.duration, known, result.parameters.size());
 }
 

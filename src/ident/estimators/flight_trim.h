@@ -34,8 +34,8 @@ struct Trim {
 /// A linear fit of the shared unknowns to the balance. Only u and the covariances of `fit` are set.
 struct TrimFit {
   FlightFit fit;
-  Eigen::VectorXd y;      ///< unbalance at the fit, [stretch][channel]
-  Eigen::MatrixXd V;      ///< covariance of y where the model is right, scatter from flight to flight included
+  Eigen::VectorXd y;  ///< unbalance at the fit, [stretch][channel]
+  Eigen::MatrixXd V;  ///< covariance of y where the model is right, scatter from flight to flight included
   Eigen::Vector4d noise;  ///< standard deviation of a stretch about the mean of its log
   double scatter = 0.0;   ///< of each rotor's thrust for the same command from flight to flight, relative
   double beyond = 0.0;    ///< cost of what logs differ by from the model and what is known of it, chi2 of

@@ -175,7 +175,8 @@ Said judged(const SearchResult& search, double chance, const std::string& limit)
             others};
   }
   if (others.empty())
-    return {"identified", fmt::format("The balance of the rotors differs from the model by {}.", found),
+    return {"identified",
+            fmt::format("The balance of the rotors differs from the model by {}.", found),
             {name},
             {}};
   return {"ambiguous",
@@ -247,9 +248,10 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
   const Said verdict = judged(search, by_chance(trim, left), limit_of(candidates));
   result.warnings.push_back(without_turning());
   if (!states_rotor_ratios(vehicle))
-    result.warn("rotors_unknown",
-                "how equal the rotors of this vehicle are when nothing is wrong is not stated: 10 % is assumed. "
-                "Refine with flights of the vehicle as it should be, and diagnose against that");
+    result.warn(
+        "rotors_unknown",
+        "how equal the rotors of this vehicle are when nothing is wrong is not stated: 10 % is assumed. "
+        "Refine with flights of the vehicle as it should be, and diagnose against that");
   result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},

@@ -31,6 +31,13 @@ double shown_by_noise(double white, double count, double h, double expected) {
   return slope * std::pow(trust / (trust + slope), 2);
 }
 
+// Variance with which two pieces of flight tell a rotor's acceleration between them, each its speed through
+// `count` samples. What the smoother draws towards zero is measured against the whole of it: next to no noise
+// of the motors' own would else let a thousandth of that pass for a gap.
+double told_by_speeds(double white, double count, double h) {
+  return count < 1 ? 0.0 : 2 * white * white / (count * h * h);
+}
+
 }  // namespace
 
 VectorXd ResidualWrench::rms() const {
@@ -102,7 +109,9 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
     }
     for (Index c = 0; rotors && c < N; ++c) {
       if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c] / h;
-      variance[6 + c] += floor.q_motor / h;
+      const auto channel = static_cast<std::size_t>(kRotorChannel + c);
+      const double speeds = static_cast<double>(samples(residuals[at], channel));
+      variance[6 + c] += floor.q_motor / h + told_by_speeds(floor.sigma[channel], speeds, h);
     }
     const Eigen::Vector3d v_B = R.transpose() * x.body.v_W, w = x.body.w_B;
     double total = 0;
