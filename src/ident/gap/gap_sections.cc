@@ -223,7 +223,8 @@ std::vector<Section> gap_sections(const Json& found, const ResidualWrench& befor
                                   const ResidualWrench& after, const GapEvidence& evidence) {
   const std::string causes = fmt::format("{}", fmt::join(causes_of(found), " and "));
   std::vector<Section> sections;
-  if (!found["gap"]["horizons"].empty()) {  // empty where nothing can be simulated
+  const Json& gap = found["gap"];
+  if (!gap.contains("horizons") || !gap["horizons"].empty()) {  // empty: nothing can be simulated
     sections.push_back(how_section(found, causes));
     std::ranges::copy(evidence.held_out, std::back_inserter(sections.front().plots));
   }
