@@ -13,23 +13,33 @@ double filled(const std::vector<double>& column, std::size_t i, double otherwise
   return column.empty() || !std::isfinite(column[i]) ? otherwise : column[i];
 }
 
-// White noise by second differences of consecutive samples, robust against jumps.
+// White noise by second differences of consecutive samples, robust against jumps; not below that of steps in
+// which the sensor counts, which the least of its changes show.
+double noise_of(const std::vector<double>& second_differences, std::vector<double> changes) {
+  constexpr double kLeast = 0.05;  // share of the changes: of white noise they are far smaller than it
+  if (second_differences.empty()) return kNaN;
+  std::erase(changes, 0.0);
+  const double step = changes.empty() ? 0.0 : quantile(changes, kLeast);
+  return std::max(1.4826 * median(second_differences) / std::sqrt(6.0), step / std::sqrt(12.0));
+}
+
 double noise_by_differences(const FlightRecord& record, int channel) {
-  std::vector<double> size;
+  std::vector<double> size, changes;
   for (const FlightArc& arc : record.arcs) {
     double a = kNaN, b = kNaN;
     for (std::size_t i = 0; i < arc.rows(); ++i) {
       const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
       if (!std::isfinite(y)) continue;
+      if (std::isfinite(b)) changes.push_back(std::abs(y - b));
       if (std::isfinite(a)) size.push_back(std::abs(y - 2 * b + a));
       a = b, b = y;
     }
   }
-  return size.empty() ? kNaN : 1.4826 * median(size) / std::sqrt(6.0);
+  return noise_of(size, std::move(changes));
 }
 
 double attitude_noise(const FlightRecord& record, int axis) {
-  std::vector<double> size;
+  std::vector<double> size, changes;
   for (const FlightArc& arc : record.arcs) {
     Eigen::Vector4d q1, q2;
     int have = 0;
@@ -40,6 +50,7 @@ double attitude_noise(const FlightRecord& record, int axis) {
       if (have > 0) {
         const Vec4<double> d = quaternion_product(conjugate(q1), q);
         const double turn = 2 * d[1 + axis] * (d[0] < 0 ? -1 : 1);
+        changes.push_back(std::abs(turn));
         if (have > 1) size.push_back(std::abs(turn - turn1));
         turn1 = turn;
       }
@@ -47,7 +58,7 @@ double attitude_noise(const FlightRecord& record, int axis) {
       ++have;
     }
   }
-  return size.empty() ? kNaN : 1.4826 * median(size) / std::sqrt(6.0);
+  return noise_of(size, std::move(changes));
 }
 
 // Motor states by simulating the commands; measured speeds replace the simulated ones.

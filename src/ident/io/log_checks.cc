@@ -2,6 +2,7 @@
 #include "ident/io/log_checks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@ namespace ident {
 namespace {
 
 constexpr double kHeldShare = 0.5;    // of the rows that repeat the row before: then it is no new sample
+constexpr double kFrozen = 1.0;       // s at one value of a sensor that else changes with every row
+constexpr double kChanges = 0.9;      // of its rows
 constexpr double kSlowestLog = 0.5;   // s between rows; slower is a log in other units, or of no use
 constexpr double kLongGap = 10.0;     // times the usual step
 constexpr double kShortestGap = 0.1;  // s
@@ -98,6 +101,49 @@ void drop_held(FlightLog& log, Components sensor, const std::string& name) {
 
 namespace {
 
+/// Whether another sensor changes with most rows of [first, last]: a vehicle at rest stands still in all of
+/// them.
+bool moves_meanwhile(const FlightLog& log, Components sensor, std::size_t first, std::size_t last) {
+  const auto changes = [&](std::span<const std::vector<double>> other) {
+    if (other.empty() || other.front().empty() || other.front().data() == sensor.front().data()) return false;
+    std::size_t count = 0;
+    for (std::size_t i = first + 1; i <= last; ++i) count += same(other, i, i - 1) ? 0 : 1;
+    return static_cast<double>(count) > 0.5 * static_cast<double>(last - first);
+  };
+  return changes(log.w_B) || changes(log.f_B) || changes(log.q_WB) || changes(log.x_W) || changes(log.v_W);
+}
+
+}  // namespace
+
+void drop_frozen(FlightLog& log, Components sensor, const std::string& name) {
+  const std::vector<std::size_t> rows = rows_of(sensor);
+  std::vector<std::pair<std::size_t, std::size_t>> runs;  // places in `rows`, of the first value and the last
+  std::size_t held = 0, frozen = 0;
+  double longest = 0, at = 0;
+  for (std::size_t k = 0, end = 0; k < rows.size(); k = end) {
+    for (end = k + 1; end < rows.size() && same(sensor, rows[end], rows[k]);) ++end;
+    held += end - k - 1;
+    const double seconds = log.t[rows[end - 1]] - log.t[rows[k]];
+    if (seconds < kFrozen || end - k < kFewRows) continue;
+    if (!moves_meanwhile(log, sensor, rows[k], rows[end - 1])) continue;
+    runs.emplace_back(k, end - 1), frozen += end - k - 1;
+    if (seconds > longest) longest = seconds, at = log.t[rows[k]];
+  }
+  const std::size_t others = rows.size() - frozen;
+  if (runs.empty() || static_cast<double>(held - frozen) > (1 - kChanges) * static_cast<double>(others))
+    return;
+  for (const auto& [first, last] : runs)
+    for (std::size_t k = first + 1; k <= last; ++k)
+      for (std::vector<double>& c : sensor) c[rows[k]] = kNaN;
+  log.warnings.push_back(
+      {"frozen_signal",
+       fmt::format("{}: {}: stands still at one value {} time{}, the longest for {:.3g} s from t = {:.6g} s, "
+                   "and else changes with every row; those rows count as not sampled",
+                   log.file, name, runs.size(), runs.size() == 1 ? "" : "s", longest, at)});
+}
+
+namespace {
+
 /// Zeros for a short time between samples of a rotor that turns, made NaN; gives their number.
 std::size_t drop_zeros(const std::vector<double>& t, std::vector<double>& Omega) {
   const double turning = kTurns * median(Omega).value_or(0.0);
@@ -144,6 +190,27 @@ void check_rotor_speeds(FlightLog& log, Components Omega) {
          fmt::format("{}: omega{}: never changes; rotor speeds are taken as not measured", log.file, n + 1)});
     return;
   }
+}
+
+void check_commands(FlightLog& log) {
+  std::vector<std::string> dead;
+  for (std::size_t n = 0; n < log.delta.size() && n < log.Omega.size(); ++n) {
+    const auto moves = [&](const std::vector<double>& column) {
+      const std::span<const std::vector<double>> one(&column, 1);
+      const std::vector<std::size_t> rows = rows_of(one);
+      return rows.size() >= kFewRows &&
+             !std::ranges::all_of(rows, [&](std::size_t i) { return same(one, i, rows.front()); });
+    };
+    if (!moves(log.delta[n]) && moves(log.Omega[n])) dead.push_back(std::to_string(n + 1));
+  }
+  if (dead.empty()) return;
+  log.delta.clear();
+  log.warnings.push_back(
+      {"constant_signal",
+       fmt::format(
+           "{}: the command of rotor {} never changes, and its speed does: the speeds serve as input, "
+           "and nothing is said of the motors",
+           log.file, fmt::join(dead, ", "))});
 }
 
 void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {

@@ -18,9 +18,16 @@ void drop_constant(FlightLog& log, Components sensor, const std::string& name);
 /// Makes NaN what a log repeats between two samples of a slower sensor (warning `held_samples`).
 void drop_held(FlightLog& log, Components sensor, const std::string& name);
 
+/// Makes NaN where a sensor that else changes with every row stands still for a second or more while another
+/// one does not (warning `frozen_signal`).
+void drop_frozen(FlightLog& log, Components sensor, const std::string& name);
+
 /// Rotor speeds as sizes (warning `rotor_speed_sign` where some were negative), short drop-outs to zero as
 /// not sampled (`rotor_speed_dropouts`), and none at all where one of them never changes (`constant_signal`).
 void check_rotor_speeds(FlightLog& log, Components Omega);
+
+/// No commands at all where one never changes and the speed of its rotor does (warning `constant_signal`).
+void check_commands(FlightLog& log);
 
 /// A sensor under the name by which people know it.
 struct NamedSensor {

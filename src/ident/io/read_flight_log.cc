@@ -60,6 +60,7 @@ class Builder {
     check_time(log_, columns_.header_line, columns_.time_unit_stated);
     take_commands();
     take_rotor_speeds();
+    check_commands(log_);
     log_.w_B = take_vector({"p", "q", "r"});
     log_.f_B = take_vector({"ax", "ay", "az"});
     log_.x_W = take_vector({"x", "y", "z"});
@@ -164,6 +165,7 @@ class Builder {
       drop_constant(log_, sensor.components, sensor.name);
       if (sensor.components.front().empty()) continue;
       drop_held(log_, sensor.components, sensor.name);
+      drop_frozen(log_, sensor.components, sensor.name);
       if (sensor.components.size() == 3) drop_spikes(log_, sensor.components, sensor.name);
       found.push_back({sensor.name, sensor.components});
     }

@@ -1,0 +1,91 @@
+// Sensors that stand still, and commands that are none.
+#include "ident/io/log_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ident/core/random.h"
+#include "ident/estimators/flight_record.h"
+#include "support/published_hover.h"
+
+namespace ident {
+namespace {
+
+FlightLog hover(std::uint64_t seed = 1) {
+  SimulationOptions options;
+  options.scenario = "hover", options.duration = 10.0, options.rate = 100.0, options.seed = seed;
+  return simulate_flight(testing::published_vehicle(), options).log;
+}
+
+std::size_t missing(const std::vector<double>& column) {
+  return static_cast<std::size_t>(std::ranges::count_if(column, [](double v) { return std::isnan(v); }));
+}
+
+void freeze(std::span<std::vector<double>> sensor, std::size_t from, std::size_t to) {
+  for (std::vector<double>& c : sensor)
+    for (std::size_t i = from; i < to; ++i) c[i] = c[from];
+}
+
+TEST(LogChecks, ASensorThatFreezesCountsAsNotSampledThere) {
+  FlightLog log = hover();
+  freeze(log.w_B, 300, 500);
+  drop_frozen(log, log.w_B, "p q r");
+  EXPECT_EQ(missing(log.w_B[0]), 199u) << "all but the first";
+  ASSERT_EQ(log.warnings.size(), 1u);
+  EXPECT_EQ(log.warnings[0].code, "frozen_signal");
+  EXPECT_NE(log.warnings[0].message.find("1.99 s from t = 3"), std::string::npos) << log.warnings[0].message;
+}
+
+TEST(LogChecks, ASensorThatStandsStillWithAllOthersIsNotFrozen) {
+  FlightLog log = hover();
+  for (auto* sensor : {&log.w_B, &log.f_B, &log.x_W, &log.v_W}) freeze(*sensor, 300, 500);
+  freeze(log.q_WB, 300, 500);
+  drop_frozen(log, log.w_B, "p q r");
+  EXPECT_EQ(missing(log.w_B[0]), 0u);
+  EXPECT_TRUE(log.warnings.empty());
+}
+
+TEST(LogChecks, AMomentIsNotFrozenAndCoarseStepsAreNot) {
+  FlightLog log = hover();
+  freeze(log.w_B, 300, 350);
+  drop_frozen(log, log.w_B, "p q r");
+  for (std::vector<double>& c : log.w_B)
+    for (double& v : c) v = std::round(v / 0.2) * 0.2;
+  freeze(log.w_B, 600, 800);
+  drop_frozen(log, log.w_B, "p q r");
+  EXPECT_EQ(missing(log.w_B[0]), 0u);
+}
+
+TEST(LogChecks, ACommandThatNeverChangesBesideASpeedThatDoesIsNone) {
+  FlightLog log = hover();
+  FlightLog still = log;
+  check_commands(log);
+  EXPECT_TRUE(log.has_commands());
+  std::ranges::fill(still.delta[2], 0.5);
+  check_commands(still);
+  EXPECT_FALSE(still.has_commands());
+  ASSERT_EQ(still.warnings.size(), 1u);
+  EXPECT_EQ(still.warnings[0].code, "constant_signal");
+  EXPECT_NE(still.warnings[0].message.find("rotor 3"), std::string::npos) << still.warnings[0].message;
+}
+
+// By differences alone a sensor that counts in steps has no noise, and then weighs more than all others.
+TEST(LogChecks, ASensorThatCountsInStepsHasTheNoiseOfItsSteps) {
+  const Vehicle vehicle = testing::published_vehicle();
+  FlightLog log = hover();
+  const auto sigma = [&](int channel) {
+    return make_flight_record(vehicle, parameter_vector(vehicle), {&log, 1})
+        .sigma[static_cast<std::size_t>(channel)];
+  };
+  const double fine = sigma(kGyro), place = sigma(kPosition);
+  for (std::vector<double>& c : log.w_B)
+    for (double& v : c) v = std::round(v / 0.2) * 0.2;
+  EXPECT_GT(sigma(kGyro), 0.9 * 0.2 / std::sqrt(12.0));
+  EXPECT_LT(sigma(kGyro), 0.2);
+  EXPECT_LT(fine, 0.2 / std::sqrt(12.0));
+  EXPECT_EQ(sigma(kPosition), place);
+}
+
+}  // namespace
+}  // namespace ident
