@@ -41,6 +41,7 @@ TEST(FlightTrim, UnequalRotorsAreFoundFromCommandsAndPath) {
     EXPECT_TRUE(result.has_warning("one_flight"));
     EXPECT_TRUE(result.find("rotor_mismatch.ratio@1")->identifiable);
     EXPECT_FALSE(result.find("Jxx")->identifiable);
+    EXPECT_EQ(result.find("omega_m")->value, stated.value("omega_m"));
     EXPECT_NEAR(result.find("kQ")->value / stated.value("kQ"), 1, 1e-6) << "balance says nothing of it";
   }
 }

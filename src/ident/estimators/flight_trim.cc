@@ -257,6 +257,9 @@ MatrixXd trim_slopes(const FlightRecord& record, const Trim& trim, const Theta& 
   constexpr double h = 1e-4;
   MatrixXd Y = MatrixXd::Zero(rows_of(trim), theta.size());
   for (int i = 0; i < theta.constants_count(); ++i) {
+    // How fast rotors follow changes their mean thrust a little: too little to learn it from that.
+    const int index = theta.constants()[static_cast<std::size_t>(i)].index;
+    if (index == param::omega_m || index == param::zeta_m || index == param::dead_time) continue;
     VectorXd more = u, less = u;
     more[i] += h, less[i] -= h;
     Y.col(i) = (unbalance(record, trim, theta.p(more)) - unbalance(record, trim, theta.p(less))) / (2 * h);
