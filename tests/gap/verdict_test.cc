@@ -120,6 +120,7 @@ TEST(Verdict, ABatteryThatTheThrustShowsIsNamedWhateverIsBesideIt) {
   EXPECT_EQ(named.status, "identified");
   EXPECT_EQ(named.effects, Names{"battery_sag"});
   EXPECT_NE(named.sentence.find("6.0 %, by 2.0 %"), std::string::npos) << named.sentence;
+  EXPECT_TRUE(named.refused) << "the others";
   c.search.thrust.rising = 2;
   EXPECT_EQ(c.judged().status, "unknown") << "in one log it falls";
   c.search.thrust.rising = 3, c.search.thrust.left = 0.04;

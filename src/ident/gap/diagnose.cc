@@ -84,6 +84,17 @@ std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& 
   return out;
 }
 
+// Probabilities are among the causes of the catalogue. Where those found are not named they are less than
+// that; a cause that is named all the same keeps its own.
+void trust_less(Json& candidates, const std::vector<std::string>& named) {
+  for (Json& c : candidates)
+    if (std::ranges::find(named, c["effect"].get<std::string>()) == named.end())
+      c["probability"] = Judged::kNearestIsThere * c["probability"].get<double>();
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Json& a, const Json& b) {
+    return a["probability"].get<double>() > b["probability"].get<double>();
+  });
+}
+
 }  // namespace
 
 Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
@@ -159,8 +170,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
         "or a multisine about every axis.",
         fmt::join(verdict.effects, " with "));
     verdict.confused_with = std::exchange(verdict.effects, {});
+    verdict.refused = true;
   }
-  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
+  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
                              {"confused_with", verdict.confused_with},
@@ -175,6 +187,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return gap_closed(same_windows(a[1], c[0]), c[0]).closed;
   };
   result.extra["candidates"] = causes_tried(search, closed_alone);
+  if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
   result.extra["gap"] = {{"before", number(gap.before)},
                          {"after", number(gap.after)},

@@ -121,6 +121,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
         fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
                     fmt::join(out.effects, " with "), why);
     out.confused_with = std::exchange(out.effects, {});
+    out.refused = true;
     return out;
   }
   double own = 0;
@@ -135,6 +136,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
         "bench test of its own.",
         found);
     out.confused_with = std::exchange(out.effects, {});
+    out.refused = true;
   } else if (others.empty()) {
     out.status = "identified";
     out.sentence = fmt::format("The gap is explained by {}.", found);

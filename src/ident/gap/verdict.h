@@ -16,6 +16,10 @@ struct Judged {
   std::string status, sentence;
   std::vector<std::string> effects, confused_with;
   double remaining = kNaN;
+  /// Causes were found and not named: something about them is not as it is with true ones. How often the
+  /// nearest is there all the same, among flights of which that was known.
+  bool refused = false;
+  static constexpr double kNearestIsThere = 0.3;
 };
 
 /// From the search, the share closed on held-out flight by horizon (s), and what no cause of the catalogue
