@@ -67,6 +67,18 @@ TEST(Verdict, APayloadWhoseMassIsNotSeenIsAShiftedCentreOfGravityAsWell) {
   EXPECT_EQ(c.judged().status, "unknown");
 }
 
+TEST(Verdict, AShiftedCentreOfGravityMayBeALightPayloadThoughThatIsLessProbable) {
+  Case c({"cg_offset", "payload", "rotor_mismatch"}, {"cg_offset"});
+  c.weighs({0}, 0.92);
+  c.weighs({1}, 0.08);
+  EXPECT_EQ(c.judged().status, "ambiguous");
+  EXPECT_EQ(c.judged().confused_with, Names{"payload"});
+  c.search.sets[1].members = {2};
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.sets[1] = {{1}, 0.0, 0.04};
+  EXPECT_EQ(c.judged().status, "identified");
+}
+
 TEST(Verdict, MoreThanThreeNamesAreNoAnswer) {
   Case c({"rotor_drag", "parasitic_drag", "blade_flapping", "wind"}, {"rotor_drag"});
   c.weighs({0}, 0.4);

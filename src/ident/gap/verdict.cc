@@ -126,7 +126,10 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
   }
   double own = 0;
   std::vector<std::string> others = in_their_place(search, out.effects, own);
-  if (own >= kSure) others.clear();
+  // What a cause that is sure leaves to others is not told, but for a payload: too light to be weighed it is
+  // a shifted centre of gravity, and only its price tells it from one.
+  const bool shifted = std::ranges::find(out.effects, "cg_offset") != out.effects.end();
+  if (own >= kSure) std::erase_if(others, [&](const std::string& n) { return !shifted || n != "payload"; });
   if (weightless_payload(search, fitted) && std::ranges::find(others, "cg_offset") == others.end())
     others.emplace_back("cg_offset");
   const std::string found = fmt::format("{}", fmt::join(out.effects, " and "));
