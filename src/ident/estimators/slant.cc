@@ -143,7 +143,7 @@ Result estimate_slant(const Vehicle& vehicle, const SlantOptions& options) {
   result.verdict = fmt::format(
       "Slant of {:.3f} deg{} decouples the moments; it costs {:.2f} % of the lift of "
       "the slanted rotors.",
-      alpha / kDegree, std::isfinite(std) ? fmt::format(" +- {:.3f} deg", std / kDegree) : "",
+      alpha / kDegree, std::isfinite(std) ? fmt::format(" ± {:.3f} deg", std / kDegree) : "",
       100.0 * (price.lift - 1.0));
   result.sections = {section(quadrotor, arm.value, alpha, best)};
   return result;
