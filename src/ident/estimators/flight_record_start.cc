@@ -16,10 +16,12 @@ double filled(const std::vector<double>& column, std::size_t i, double otherwise
 // White noise by second differences of consecutive samples, robust against jumps; not below that of steps in
 // which the sensor counts, which the least of its changes show.
 double noise_of(const std::vector<double>& second_differences, std::vector<double> changes) {
-  constexpr double kLeast = 0.05;  // share of the changes: of white noise they are far smaller than it
+  constexpr double kRepeats = 0.1;  // of the samples: without steps no two are the same
+  constexpr double kLeast = 0.05;   // share of the changes that are no larger than a step
   if (second_differences.empty()) return kNaN;
-  std::erase(changes, 0.0);
-  const double step = changes.empty() ? 0.0 : quantile(changes, kLeast);
+  const double repeats = static_cast<double>(std::erase(changes, 0.0));
+  const bool steps = repeats > kRepeats * (repeats + static_cast<double>(changes.size())) && !changes.empty();
+  const double step = steps ? quantile(changes, kLeast) : 0.0;
   return std::max(1.4826 * median(second_differences) / std::sqrt(6.0), step / std::sqrt(12.0));
 }
 

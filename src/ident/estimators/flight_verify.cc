@@ -34,12 +34,21 @@ bool is_lost(const std::vector<double>& residuals, const FlightArc& arc, const C
   return false;
 }
 
+// The same for all axes of a sensor: one along which nothing happened says nothing of its size.
 std::array<double, kChannels> largest_of(const FlightRecord& record) {
   std::array<double, kChannels> largest{};
-  for (const FlightArc& arc : record.arcs)
-    for (std::size_t i = 0; i < arc.y.size(); ++i)
-      if (std::isfinite(arc.y[i]))
-        largest[i % kChannels] = std::max(largest[i % kChannels], std::abs(arc.y[i]));
+  const auto of_sensor = [&](std::size_t first, std::size_t count) {
+    double most = 0;
+    for (const FlightArc& arc : record.arcs)
+      for (std::size_t i = 0; i < arc.rows(); ++i)
+        for (std::size_t c = first; c < first + count; ++c)
+          if (const double y = arc.y[i * kChannels + c]; std::isfinite(y)) most = std::max(most, std::abs(y));
+    std::fill_n(largest.begin() + static_cast<std::ptrdiff_t>(first), count, most);
+  };
+  for (const std::size_t sensor :
+       {std::size_t{kGyro}, std::size_t{kForce}, std::size_t{kVelocity}, std::size_t{kPosition}})
+    of_sensor(sensor, 3);
+  of_sensor(kRotorChannel, kMaxRotors);
   return largest;
 }
 
