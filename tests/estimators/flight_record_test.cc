@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "ident/core/error.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/model/simulate.h"
 #include "support/random_vehicle.h"
@@ -32,6 +33,19 @@ TEST(FlightRecord, SagIsCountedFromOneVoltageForAllLogs) {
   EXPECT_DOUBLE_EQ(ratio(vehicle, 1), 10.2 / 12.0);
   vehicle.battery_voltage = 12.6;
   EXPECT_DOUBLE_EQ(ratio(vehicle, 1), 10.2 / 12.6);
+}
+
+// Motors are simulated for all logs or for none.
+TEST(FlightRecord, LogsWithAndWithoutCommandsAreNotMixed) {
+  const Vehicle vehicle = random_vehicle(2);
+  SimulationOptions options;
+  options.duration = 3, options.rate = 100, options.longest_step = 0;
+  std::vector<FlightLog> logs(2, simulate_flight(vehicle, options).log);
+  EXPECT_NO_THROW((void)make_flight_record(vehicle, parameter_vector(vehicle), logs));
+  logs[1].delta.clear();
+  EXPECT_THROW((void)make_flight_record(vehicle, parameter_vector(vehicle), logs), UsageError);
+  logs[0].delta.clear();
+  EXPECT_NO_THROW((void)make_flight_record(vehicle, parameter_vector(vehicle), logs));
 }
 
 }  // namespace

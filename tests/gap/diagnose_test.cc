@@ -52,6 +52,23 @@ TEST(Diagnosis, LongMotorDelayIsFoundThoughItIsFarFromLinear) {
   EXPECT_NEAR(found.adopted.parameters.at("motor_delay.tau").value, 0.02, 1e-3);
 }
 
+// As a refinement leaves it: the thrust of each rotor is stated, with what it scatters by from flight to
+// flight.
+TEST(Diagnosis, ARotorThatLostMoreThanItsStatedThrustScattersIsAWeakRotor) {
+  Vehicle truth = published_vehicle();
+  Vehicle model = truth;
+  for (const char* rotor : {"1", "2", "3", "4"})
+    model.parameters[std::string("rotor_mismatch.ratio@") + rotor] = {1.0, 0.035};
+  truth.parameters["rotor_mismatch.ratio@2"] = {0.75, {}};
+  const std::vector<FlightLog> logs{flight_of(truth, 4)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  const auto& verdict = found.result.extra["verdict"];
+  EXPECT_EQ(verdict["effects"], nlohmann::ordered_json({"rotor_mismatch"})) << verdict["sentence"];
+  EXPECT_NEAR(found.adopted.value("rotor_mismatch.ratio@2") / found.adopted.value("rotor_mismatch.ratio@3"),
+              0.75, 0.02);
+  EXPECT_EQ(verdict_of(model, flight_of(published_vehicle(), 4))["status"], "none");
+}
+
 // A turned sensor mimics a biased accelerometer for most of a flight, but not all: a regression on what the
 // sensors show finds the rest.
 TEST(Diagnosis, ALookAlikeIsNotNamedWhenTheCauseItselfMayNotBe) {

@@ -1,6 +1,8 @@
 // The diagnosis of flights without rates and attitude.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ident/estimators/flight_refine.h"
 #include "ident/gap/diagnose.h"
 #include "support/path_only.h"
@@ -58,6 +60,16 @@ TEST(DiagnoseTrim, AShiftedCentreOfGravityIsNoWeakRotor) {
   EXPECT_NE(verdict["status"], "none");
   ASSERT_FALSE(verdict["effects"].empty()) << verdict;
   EXPECT_EQ(verdict["effects"][0], "cg_offset") << verdict;
+}
+
+TEST(DiagnoseTrim, ALoadIsNotNamedAlone) {
+  Vehicle truth = testing::upright();
+  truth.parameters["payload.m"] = {0.1, {}}, truth.parameters["payload.x"] = {0.15, {}};
+  const Diagnosis found = of_flight(truth);
+  const Json& verdict = found.result.extra["verdict"];
+  EXPECT_NE(verdict["status"], "none");
+  EXPECT_NE(verdict["status"], "identified") << verdict;
+  EXPECT_TRUE(std::ranges::count(verdict["confused_with"], "payload")) << verdict;
 }
 
 TEST(DiagnoseTrim, AWrongThrustOnTheWholeIsNotAscribedToOneOfItsConstants) {

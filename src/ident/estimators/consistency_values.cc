@@ -79,12 +79,12 @@ void check_std(const std::string& name, const Known& known, Consistency& found) 
         {"bad_std", name + ": a standard deviation has to be positive", value_json(name, known)});
   if (has_to_be_positive(name) && std > size)
     found.doubtful("standard deviation of " + name,
-                   {"large_std", fmt::format("{} = {} +- {}: nothing is known of it", name,
+                   {"large_std", fmt::format("{} = {} ± {}: nothing is known of it", name,
                                              format_number(known.value), format_number(std))});
   if (size > 0.0 && std < 1e-5 * size)
     found.doubtful(
         "standard deviation of " + name,
-        {"small_std", fmt::format("{} = {} +- {}: no bench measures to {}", name, format_number(known.value),
+        {"small_std", fmt::format("{} = {} ± {}: no bench measures to {}", name, format_number(known.value),
                                   format_number(std), format_number(std / size, 1))});
 }
 

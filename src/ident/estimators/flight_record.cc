@@ -173,12 +173,30 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
   return arc;
 }
 
+// Whether it is known what every rotor does: from commands, or from speeds of which there are any.
+bool is_driven(const FlightArc& arc) {
+  const auto& speeds = arc.inputs->Omega;
+  return arc.inputs->commanded() ||
+         (!speeds.empty() && std::ranges::none_of(speeds, [](const auto& s) { return s.empty(); }));
+}
+
+// Motors are simulated for all logs or for none.
+void require_like_inputs(std::span<const FlightLog> logs) {
+  for (const FlightLog& log : logs)
+    if (log.has_commands() != logs.front().has_commands())
+      throw UsageError(fmt::format(
+          "{} has commands and {} has not: give them apart, or leave the command columns out of all",
+          log.has_commands() ? log.file : logs.front().file,
+          log.has_commands() ? logs.front().file : log.file));
+}
+
 }  // namespace
 
 FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
                                 std::span<const FlightLog> logs, const RecordOptions& options) {
   FlightRecord record;
   record.vehicle = &vehicle;
+  require_like_inputs(logs);
   record.logs = static_cast<int>(logs.size());
   record.signals = signals_of(logs);
   record.motor_rate = p[param::omega_m];
@@ -194,7 +212,8 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     const std::vector<bool> fly = in_flight(log, record.warnings);
     const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
     for (const auto& [begin, end] : pieces(log, fly, options.longest_gap, history))
-      record.arcs.push_back(make_arc(log, static_cast<int>(n), begin, end, vehicle, v0));
+      if (FlightArc arc = make_arc(log, static_cast<int>(n), begin, end, vehicle, v0); is_driven(arc))
+        record.arcs.push_back(std::move(arc));
   }
   std::vector<double> intervals;
   for (const FlightArc& arc : record.arcs) {

@@ -205,7 +205,7 @@ std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<con
   const auto tell = [&](const char* what, const char* against, const StreamOffset& o) {
     warnings.push_back(
         {"stream_offset",
-         fmt::format("{} the same motion {} ms (+- {}) {} than {}: read that much {}", what,
+         fmt::format("{} the same motion {} ms (± {}) {} than {}: read that much {}", what,
                      format_number(1e3 * std::abs(o.seconds), 2), format_number(1e3 * o.std, 1),
                      o.seconds > 0 ? "later" : "earlier", against, o.seconds > 0 ? "earlier" : "later")});
   };

@@ -63,6 +63,17 @@ double needed_at(const FlightArc& arc, const Path& path, double g, double t) {
   return (a - Eigen::Vector3d(0, 0, g)).norm();
 }
 
+// What noise of the path across the thrust adds to the mean size of what it asks for, m/s^2.
+double rectified_noise(const FlightRecord& record, const Path& path) {
+  double variance = 0;
+  for (const std::size_t axis : {0U, 1U}) {
+    const double white = record.sigma[static_cast<std::size_t>(path.channel) + axis];
+    const double h = path.order * kDifference;
+    variance += path.order == 1 ? white * white / (2 * h * h) : 6 * white * white / std::pow(h, 4);
+  }
+  return variance / (2 * record.vehicle->g);
+}
+
 // What the model's rotors do on the average of a stretch, with the vehicle level: thrust over mass, m/s^2,
 // and moments about the centre of gravity over thrust, m.
 Eigen::Vector4d mean_wrench(const FlightRecord& record, const std::vector<double>& p, const TrimStretch& s) {
@@ -211,6 +222,7 @@ Trim make_trim(const FlightRecord& record, const std::vector<double>& p) {
   trim.weight = p[param::m] * g, trim.drag = p[param::kQ] / p[param::kT];
   for (const Rotor& rotor : record.vehicle->rotors) trim.reach = std::max(trim.reach, rotor.r_B.norm());
   const Path path = record.signals.velocity ? Path{kVelocity, 1} : Path{kPosition, 2};
+  const double rectified = rectified_noise(record, path);
   std::set<int> logs;
   for (std::size_t k = 0; k < record.arcs.size(); ++k) {
     const FlightArc& arc = record.arcs[k];
@@ -224,7 +236,7 @@ Trim make_trim(const FlightRecord& record, const std::vector<double>& p) {
       double sum = 0, count = 0;
       for (double t = begin; t < begin + length; t += kDifference)
         if (const double f = needed_at(arc, path, g, t); std::isfinite(f)) sum += f, count += 1;
-      s.needed = sum / std::max(count, 1.0);
+      s.needed = sum / std::max(count, 1.0) - rectified;
       if (s.end <= s.begin + 1 || !(s.needed > kAloft * g)) continue;
       if (mean_wrench(record, p, s)[0] < kAloft * g) continue;
       trim.stretches.push_back(s);
@@ -232,10 +244,14 @@ Trim make_trim(const FlightRecord& record, const std::vector<double>& p) {
     }
   }
   trim.logs = static_cast<int>(logs.size());
-  if (trim.stretches.size() < 2 || !(trim.reach > 0))
+  if (!(trim.reach > 0))
     throw DataError(
-        "neither rates nor attitude were logged, and the flight is too short for the balance of its rotors: "
-        "6 s aloft are needed; log rates or attitude");
+        "neither rates nor attitude were logged (or they never change), and a rotor at the origin "
+        "balances whatever it does; log rates or attitude");
+  if (trim.stretches.size() < 2)
+    throw DataError(
+        "neither rates nor attitude were logged (or they never change), and the flight is too short for the "
+        "balance of its rotors: some 7 s aloft without a gap are needed; log rates or attitude");
   return trim;
 }
 
@@ -267,12 +283,13 @@ MatrixXd trim_slopes(const FlightRecord& record, const Trim& trim, const Theta& 
   return Y;
 }
 
-TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& theta, const TrimFit* like) {
+TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& theta, bool hold_common,
+                 const TrimFit* like) {
   constexpr int kSteps = 6;
   const bool scatter_known = states_rotor_ratios(*record.vehicle);
   TrimFit out;
   if (like) out.V = like->V, out.noise = like->noise, out.scatter = like->scatter;
-  const VectorXd common = in_common(theta);
+  const VectorXd common = hold_common ? in_common(theta) : VectorXd::Zero(theta.size());
   VectorXd u = VectorXd::Zero(theta.size());
   MatrixXd H;
   for (int step = 0; step < kSteps; ++step) {
@@ -392,13 +409,13 @@ void refine_trim(Result& result, const FlightRecord& record, const std::vector<d
                  const std::vector<std::string>& free) {
   const Theta theta(p, trim_constants(record, p, free), record.logs, false);
   const Trim trim = make_trim(record, p);
-  TrimFit found = fit_trim(record, trim, theta);
+  TrimFit found = fit_trim(record, trim, theta, true);
   // What is written serves for the next flight, and that scatters too.
   for (int i = 0; i < theta.constants_count(); ++i)
     if (const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)]; is_ratio(c))
-      found.fit.covariance(i, i) += std::pow(found.scatter / c.unit(), 2);
+      found.fit.covariance(i, i) += std::pow(std::max(found.scatter, kUsualScatter) / c.unit(), 2);
   result.warnings.push_back(without_turning());
-  if (trim.logs == 1)
+  if (trim.logs == 1 && found.scatter > 0)
     result.warn("one_flight", fmt::format("how much the rotors' balance changes from flight to flight is not "
                                           "known from one: {:.0f} % is assumed; give several logs",
                                           100 * found.scatter));

@@ -61,7 +61,8 @@ std::vector<FreeConstant> trim_constants(const FlightRecord& record, const std::
                                          std::vector<std::string> also = {});
 
 /// Under the noise and scatter of `like` if that is given, else under what the flights themselves show.
-TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& theta,
+/// `hold_common`: what all rotors gain alike is the thrust constant's.
+TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& theta, bool hold_common,
                  const TrimFit* like = nullptr);
 
 /// Whether the vehicle file says what thrust each rotor has, as a refinement by balance leaves it.

@@ -45,6 +45,8 @@ class Builder {
 // gust does that pushes above it: more than this share of a payload's reach is taken for that.
 constexpr double kHighest = 0.05;
 
+constexpr std::string_view kRatio = "rotor_mismatch.ratio@";
+
 }  // namespace
 
 double payload_reach(const Vehicle& vehicle) {
@@ -76,10 +78,18 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
     if (c.prior_std && c.name.find('.') == std::string::npos && !rival_effect &&
         wanted("parameter:" + c.name))
       problem.candidates.push_back({"parameter:" + c.name, {}, i, -1, false});
+    // A rotor whose thrust is known to some per cent may have lost more: then that is the cause.
+    if (c.prior_std && !c.adopted && c.name.starts_with(kRatio) && wanted("rotor_mismatch"))
+      problem.candidates.push_back(
+          {"rotor_mismatch", {}, i, std::stoi(c.name.substr(kRatio.size())) - 1, false});
   }
   for (const EffectEntry& e : catalogue()) {
     const std::string name(e.info.name);
     if (!wanted(name) || states_effect(vehicle, name)) continue;
+    if (name == "rotor_mismatch" && std::ranges::any_of(problem.candidates, [&](const Candidate& c) {
+          return c.name == name && c.parameter >= 0;
+        }))
+      continue;
     const auto is = [&](EffectId id) { return e.id == id; };
     const bool flow = (e.info.touches & kTouchFlow) != 0;
     if (is(EffectId::rotor_mismatch) || is(EffectId::rotor_tilt)) {

@@ -32,28 +32,23 @@ constexpr double kSure = 0.9, kTold = 0.05;
 constexpr double kChance = 1e-3;
 constexpr std::size_t kMostNames = 3;
 
-std::string base_name(const std::string& name) { return name.substr(0, name.find('.')); }
-
-// What depends on how the vehicle moves through the air or over the ground needs its attitude.
+// What depends on how the vehicle moves through the air or over the ground needs its attitude; and a tilted
+// rotor turns the vehicle as a wrong slant angle or drag does.
 bool shows_in_balance(const std::string& cause) {
   const EffectEntry* effect = find_effect(cause);
-  constexpr unsigned kSeen = kTouchCentre | kTouchGain | kTouchRotor | kTouchAxis;
-  return effect == nullptr ||
-         ((effect->info.touches & kSeen) != 0 && (effect->info.touches & (kTouchFlow | kTouchHeight)) == 0);
+  constexpr unsigned kSeen = kTouchCentre | kTouchGain | kTouchRotor,
+                     kHidden = kTouchFlow | kTouchHeight | kTouchAxis;
+  return effect == nullptr || ((effect->info.touches & kSeen) != 0 && (effect->info.touches & kHidden) == 0);
 }
 
-// The causes that show; a rotor whose thrust is stated is a constant stated wrongly.
+// The causes that show. A payload is a shifted centre of gravity and more thrust for a command here, which no
+// constants could be told from.
 ExtendedProblem problem_of(const FlightRecord& record, const std::vector<double>& p,
                            const std::vector<FreeConstant>& base, const std::vector<std::string>& exclude) {
-  Vehicle unstated = *record.vehicle;
-  std::erase_if(unstated.parameters,
-                [](const auto& entry) { return base_name(entry.first) == "rotor_mismatch"; });
-  ExtendedProblem problem = extended_problem(unstated, p, record.signals, base, exclude);
-  std::erase_if(problem.candidates,
-                [](const Candidate& c) { return !shows_in_balance(c.name) || is_lag(c.name); });
-  for (Candidate& c : problem.candidates)
-    if (c.name == "rotor_mismatch" && c.directions.front() < problem.base)
-      c.parameter = c.directions.front(), c.directions.clear();
+  ExtendedProblem problem = extended_problem(*record.vehicle, p, record.signals, base, exclude);
+  std::erase_if(problem.candidates, [](const Candidate& c) {
+    return !shows_in_balance(c.name) || is_lag(c.name) || c.name == "payload";
+  });
   return problem;
 }
 
@@ -101,7 +96,7 @@ Fitted fitted(const FlightRecord& record, const Trim& trim, const std::vector<do
   for (const Candidate& c : out.model.adopted)
     if (c.parameter >= 0) *constants[static_cast<std::size_t>(c.parameter)].prior_std *= 100;
   out.model.theta = std::make_shared<Theta>(p, std::move(constants), record.logs, false);
-  out.trim = fit_trim(record, trim, *out.model.theta, like);
+  out.trim = fit_trim(record, trim, *out.model.theta, false, like);
   out.model.fit = out.trim.fit;
   return out;
 }
@@ -131,21 +126,21 @@ Said judged(const SearchResult& search, double chance, const std::string& limit)
   if (search.best.adopted.empty()) {
     out.status = chance < kChance ? "unknown" : "none";
     out.sentence = chance < kChance
-                       ? "The rotors do not balance as the model says, and no single cause that shows in "
-                         "their balance explains it. "
+                       ? "The rotors do not balance as the model says, and no single cause stands out for "
+                         "it. "
                        : "The rotors balance as the model says, within what is known of it. ";
     out.sentence += limit;
     return out;
   }
   const std::string name = search.best.adopted.front().name;
-  if (name.starts_with("parameter:")) {  // all of them act on the thrust as a whole
+  if (name.starts_with("parameter:")) {
     out.status = "unknown";
     for (const Candidate& c : search.problem.candidates)
       if (c.name.starts_with("parameter:")) out.confused_with.push_back(c.name);
     out.sentence = fmt::format(
-        "The rotors' thrust for a command is not what was stated, and balance does not tell which of its "
-        "constants is wrong ({}): refine them with these flights. {}",
-        fmt::join(out.confused_with, ", "), limit);
+        "What the rotors do for a command is not what the model says. Balance does not tell which of its "
+        "constants is wrong ({}), nor lift in wind or near the ground, or a load, from them.{}",
+        fmt::join(out.confused_with, ", "), chance < kChance ? " And that is not all." : " " + limit);
     return out;
   }
   double own = 0;
@@ -164,6 +159,7 @@ Said judged(const SearchResult& search, double chance, const std::string& limit)
         others.push_back(other);
   }
   if (own > kSure) others.clear();
+  if (name == "cg_offset") others.emplace_back("payload");  // shifts it alike
   const std::string found = described(search.best.adopted.front());
   if (chance < kChance || others.size() >= kMostNames) {
     others.insert(others.begin(), name);

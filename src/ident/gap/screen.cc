@@ -282,7 +282,9 @@ double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, i
   const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
   scaled.diagonal().array() += 1e-10;
-  const double v = Eigen::LLT<MatrixXd>(scaled).solve(VectorXd::Unit(m, at))[at] * s[at] * s[at];
+  // What is stated of a parameter may be off by its own deviation as well.
+  const double stated = c.parameter >= 0 && form.prior_info[target] > 0 ? 1 / form.prior_info[target] : 0.0;
+  const double v = Eigen::LLT<MatrixXd>(scaled).solve(VectorXd::Unit(m, at))[at] * s[at] * s[at] + stated;
   return std::sqrt(std::max(v, 0.0) *
                    stretch_of(form, c.parameter >= 0 ? std::vector<int>{target} : c.directions)) *
          std::abs(problem.constants[static_cast<std::size_t>(target)].unit());

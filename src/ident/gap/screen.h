@@ -48,7 +48,7 @@ struct SetGain {
 SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& members);
 
 /// Standard deviation of one direction of a candidate, everything of the base free; coloured residuals
-/// counted.
+/// counted. Of a parameter that of its difference from what is stated.
 double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, int candidate, int direction);
 
 }  // namespace ident

@@ -189,9 +189,10 @@ std::vector<PlainCause> plain_causes(const SearchResult& search, const std::vect
   if (const LevelThrust& seen = search.thrust; battery && seen.plain())
     out.push_back(
         {"battery_sag",
-         fmt::format("The battery shows in every log: thrust for the same commands varies by {:.1f} %, by "
-                     "{:.1f} % where rotor speeds go with the voltage to the power of {}.",
-                     100 * seen.varies, 100 * seen.left, format_number(seen.n, 2))});
+         fmt::format(
+             "The battery shows in {} logs of {}: thrust for the same commands varies by {:.1f} %, by "
+             "{:.1f} % where rotor speeds go with the voltage to the power of {}.",
+             seen.rising, seen.logs, 100 * seen.varies, 100 * seen.left, format_number(seen.n, 2))});
   return out;
 }
 

@@ -204,12 +204,12 @@ void check_commands(FlightLog& log) {
     if (!moves(log.delta[n]) && moves(log.Omega[n])) dead.push_back(std::to_string(n + 1));
   }
   if (dead.empty()) return;
-  log.delta.clear();
   log.warnings.push_back(
-      {"constant_signal",
+      {"constant_command",
        fmt::format(
-           "{}: the command of rotor {} never changes, and its speed does: the speeds serve as input, "
-           "and nothing is said of the motors",
+           "{}: the command of rotor {} never changes, and its speed does: is the column the right one? "
+           "Nothing that depends on commands can be trusted; without the command columns the speeds "
+           "serve as input",
            log.file, fmt::join(dead, ", "))});
 }
 

@@ -26,7 +26,7 @@ void drop_frozen(FlightLog& log, Components sensor, const std::string& name);
 /// not sampled (`rotor_speed_dropouts`), and none at all where one of them never changes (`constant_signal`).
 void check_rotor_speeds(FlightLog& log, Components Omega);
 
-/// No commands at all where one never changes and the speed of its rotor does (warning `constant_signal`).
+/// Warns of a command that never changes beside the speed of its rotor that does (`constant_command`).
 void check_commands(FlightLog& log);
 
 /// A sensor under the name by which people know it.
