@@ -72,6 +72,18 @@ TEST(FlightRefine, ExactLogsOfAFinerIntegratorGiveTheConstantsBackButForTheStep)
   expect_found(refine_flight(as_measured(truth), flights(truth, options), {.validate = false}), truth, 1e-5);
 }
 
+// As printed, the published vehicle has moments of inertia that no body has.
+TEST(FlightRefine, AnInertiaThatNoBodyHasIsNamed) {
+  SimulationOptions options;
+  options.duration = 15.0;
+  Vehicle truth = feasible();
+  EXPECT_FALSE(refine_flight(as_measured(truth), flights(truth, options), {.validate = false})
+                   .has_warning("triangle_inequality"));
+  truth.parameters.at("Jzz").value = 2.423e-3;
+  EXPECT_TRUE(refine_flight(as_measured(truth), flights(truth, options), {.validate = false})
+                  .has_warning("triangle_inequality"));
+}
+
 TEST(FlightRefine, AMomentsPathWithoutRatesAndAttitudeIsRefusedInSoManyWords) {
   SimulationOptions options;
   options.duration = 5.0;

@@ -48,7 +48,7 @@ TEST(Verdict, ACauseBesideTheOneFoundIsNoRivalAndOneInItsPlaceIs) {
 
 TEST(Verdict, APayloadWhoseMassIsNotSeenIsAShiftedCentreOfGravityAsWell) {
   Case c({"payload", "cg_offset"}, {"payload"});
-  c.weighs({0}, 1.0);
+  c.weighs({0}, 0.97), c.weighs({1}, 0.03);
   Parameter mass;
   mass.name = "payload.m", mass.value = 0.06, mass.std = 0.01;
   c.fitted = {mass};
@@ -58,6 +58,9 @@ TEST(Verdict, APayloadWhoseMassIsNotSeenIsAShiftedCentreOfGravityAsWell) {
   EXPECT_EQ(either.status, "ambiguous");
   EXPECT_EQ(either.effects, Names{"payload"});
   EXPECT_EQ(either.confused_with, Names{"cg_offset"});
+  c.search.sets[1].probability = 1e-3;  // what it adds to the moments of inertia shows it
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.sets[1].probability = 0.03;
   c.search.best.adopted.push_back({"rotor_drag"});  // its place does what the other cause leaves
   EXPECT_EQ(c.judged().status, "unknown");
   c.search.best.adopted.pop_back();

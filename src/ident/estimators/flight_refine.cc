@@ -11,6 +11,7 @@
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_command_offset.h"
 #include "ident/estimators/flight_entry.h"
+#include "ident/estimators/flight_inertia.h"
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
@@ -210,6 +211,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   result.parameters = flight_parameters(theta, fit, "flightlog");
   warn_about(result, theta, fit);
+  warn_of_inertia(result, theta, fit);
   result.fit["seconds"] = record.duration;
   result.fit["steps"] = fit.steps;
   result.fit["segment_seconds"] = fit.chunk_seconds;

@@ -32,8 +32,10 @@ constexpr double kChangesBy = 0.1;
 constexpr double kMotorChangesBy = 0.5;
 // A bench is wrong in one thing or two. Where more of its values have to be, another one stands behind them.
 constexpr std::ptrdiff_t kMostWrong = 2;
-// Standard deviations of a payload's mass from none below which only its moment was seen.
+// Standard deviations of a payload's mass from none below which only its moment was seen, unless a shifted
+// centre of gravity in its place is no more probable than this.
 constexpr double kMassSeen = 5.0;
+constexpr double kNoShift = 0.01;
 // Standard deviations by which a constant may be pulled off its bench value beside the right cause.
 constexpr double kContradicts = 5.0;
 // And as many of the bench's own, which a flight that tells little need not reach.
@@ -199,7 +201,20 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted,
 
 bool weightless_payload(const SearchResult& search, const std::vector<Parameter>& fitted) {
   const auto mass = std::ranges::find(fitted, "payload.m", &Parameter::name);
-  return is_found(search, "payload") && mass != fitted.end() && !(mass->value > kMassSeen * mass->std);
+  if (!is_found(search, "payload") || mass == fitted.end() || mass->value > kMassSeen * mass->std)
+    return false;
+  // What it adds to the moments of inertia may show it all the same.
+  if (!is_candidate(search, "cg_offset")) return true;
+  double shift = 0;
+  for (const WeighedSet& set : search.sets) {
+    const auto has = [&](const char* name) {
+      return std::ranges::any_of(set.members, [&](int c) {
+        return search.problem.candidates[static_cast<std::size_t>(c)].name == name;
+      });
+    };
+    if (has("cg_offset") && !has("payload")) shift += set.probability;
+  }
+  return shift > kNoShift;
 }
 
 std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,

@@ -111,8 +111,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                                  {"effects", Json::array()},
                                  {"confused_with", Json::array()},
                                  {"sentence", wrong}};
+      result.verdict = wrong;
       distrust(result, wrong);
     }
+    if (result.extra["verdict"]["status"] == "unknown") trust_less(result.extra["candidates"], {});
     result.sections.push_back(data_health(record, logs, initial_noise(record)));
     return out;
   }

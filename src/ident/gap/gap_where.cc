@@ -93,6 +93,7 @@ Json bands(const ResidualWrench& w) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < w.t.size(); ++k)
     if (w.log[k] == w.log[k - 1]) steps.push_back(w.t[k] - w.t[k - 1]);
+  if (steps.empty()) return Json::array();
   std::ranges::sort(steps);
   const double dt = std::max(steps[steps.size() / 2], 1e-6);
   const std::array<double, 6> edges{0.0, 0.1, 0.3, 1.0, 3.0, 0.5 / dt};

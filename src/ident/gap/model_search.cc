@@ -25,6 +25,11 @@ constexpr double kHardly = 0.3;
 constexpr int kExchanges = 2;
 // And one of two goes if they are no more probable than this with it.
 constexpr double kAlmostNever = 0.03;
+// Sets that are no less probable than this share of the one found are looked at in full, so many of them, and
+// one is taken that leaves so little of what the one found leaves to others.
+constexpr double kNotRuledOut = 1e-3;
+constexpr std::size_t kAlternatives = 4;
+constexpr double kLess = 0.9;
 
 // One search: adds causes step by step, and exchanges them where their weights speak against them.
 class Search {
@@ -135,7 +140,8 @@ class Search {
     if (uneven.gain > kWorthATrial && uneven.gain > 3 * best.gain && tried_.size() < kTrials) {
       if (try_uneven(uneven, best.honest()) || best.candidate < 0) return true;
     }
-    if (best.candidate < 0 || !explains_its_share(best)) return false;
+    if (best.candidate < 0) return false;
+    if (!explains_its_share(best)) return take_alternative();
     const Candidate chosen = candidate(best.candidate);
     if (moves_mass(chosen) && take_payload_instead(chosen)) return true;
     tell(0.1, described(chosen));
@@ -166,13 +172,25 @@ class Search {
     return false;
   }
 
-  // One in the vehicle is measured against others there.
+  // One in the vehicle is measured against others there: by what they gained when they were found, or gain
+  // now that the model is no longer bent in their place.
   bool explains_its_share(const Further& next) const {
     const bool mounting = is_of_mounting(candidate(next.candidate).name);
-    double found = 0;
-    for (const SearchStep& s : out_.steps)
-      if (mounting || !is_of_mounting(s.name)) found += s.gain;
-    return is_material(next, candidate(next.candidate), static_cast<int>(out_.steps.size()), found);
+    const auto sum = [&](const std::vector<SearchStep>& steps) {
+      double gain = 0;
+      for (const SearchStep& s : steps)
+        if (mounting || !is_of_mounting(s.name)) gain += s.gain;
+      return gain;
+    };
+    const Candidate& cause = candidate(next.candidate);
+    const auto is_drag = [](const Candidate& c) {
+      return c.name == "rotor_drag" || c.name == "parasitic_drag";
+    };
+    // Wind and the drag by which it acts are one.
+    const bool with_drag = cause.name == "wind" && std::ranges::any_of(now_.model.adopted, is_drag);
+    const int found = static_cast<int>(out_.steps.size()) - (with_drag ? 1 : 0);
+    const double gain = sum(out_.steps);
+    return is_material(next, cause, found, found > 1 && !mounting ? std::max(gain, sum(steps_here())) : gain);
   }
 
   // One payload in place of all causes that move masses, `next` among them.
@@ -246,15 +264,10 @@ class Search {
     // nothing goes.
     const bool drops = std::ranges::includes(now_.have, best->members);
     if (drops && static_cast<int>(now_.have.size()) <= kOften && own > kAlmostNever * all) return false;
-    std::string names;
-    for (const int c : best->members) names += (names.empty() ? "" : ", ") + described(candidate(c));
-    tell(0.1, names);
-    FittedModel model = with_causes(record_, vehicle_, now_, best->members, fit_);
-    if (!stands(model)) return false;
     const std::vector<Candidate> before = now_.model.adopted;
-    Standing there = at(std::move(model));
-    if (there.have.size() != best->members.size()) return false;  // one acts only through what was dropped
-    if (!(log_odds(there, there.have, places_of(before, there.problem)) > 0)) return false;
+    std::optional<Standing> preferred = preferred_in_full(best->members);
+    if (!preferred) return false;
+    Standing& there = *preferred;
     if (drops) {
       std::vector<int> gone = places_of(before, there.problem);
       std::erase_if(gone, [&](int c) { return std::ranges::find(there.have, c) != there.have.end(); });
@@ -264,6 +277,53 @@ class Search {
     }
     move_to(std::move(there));
     return true;
+  }
+
+  // The model with other causes, if all of them act there and the weights prefer them there, too.
+  std::optional<Standing> preferred_in_full(const std::vector<int>& causes) {
+    std::string names;
+    for (const int c : causes) names += (names.empty() ? "" : ", ") + described(candidate(c));
+    tell(0.1, names);
+    FittedModel model = with_causes(record_, vehicle_, now_, causes, fit_);
+    if (!stands(model)) return {};
+    Standing there = at(std::move(model));
+    const std::vector<int> before = places_of(now_.model.adopted, there.problem);
+    if (there.have.size() != causes.size() || !(log_odds(there, there.have, before) > 0)) return {};
+    return there;
+  }
+
+  // Strong causes are weighed far from where they act. Where those found leave something to others, sets of
+  // as many that weigh little less are looked at in full.
+  bool take_alternative() {
+    const double left = left_to_others(now_);
+    const std::vector<int> kept = places_of(kept_, now_.problem);
+    const std::vector<WeighedSet> sets = weighed_sets(now_);
+    const auto own = std::ranges::find(sets, now_.have, &WeighedSet::members);
+    if (own == sets.end()) return false;
+    for (const WeighedSet& set : sets) {
+      if (looked_at_.size() >= kAlternatives || set.probability < kNotRuledOut * own->probability) break;
+      std::vector<Candidate> causes;
+      for (const int c : set.members) causes.push_back(candidate(c));
+      if (set.members.size() != now_.have.size() || set.members == now_.have ||
+          !std::ranges::includes(set.members, kept) || !may_be_tried(set.members) ||
+          std::ranges::any_of(looked_at_, [&](const auto& l) { return std::ranges::equal(l, causes, same); }))
+        continue;
+      looked_at_.push_back(std::move(causes));
+      std::optional<Standing> there = preferred_in_full(set.members);
+      if (!there || left_to_others(*there) > kLess * left) continue;
+      move_to(std::move(*there));
+      return true;
+    }
+    return false;
+  }
+
+  // The most that any further cause would explain.
+  static double left_to_others(const Standing& at) {
+    double left = 0;
+    for (int c = 0; c < static_cast<int>(at.problem.candidates.size()); ++c)
+      if (std::ranges::find(at.have, c) == at.have.end())
+        if (const Further f = further(at, at.have, c); f.passes()) left = std::max(left, f.honest());
+    return left;
   }
 
   // As many causes as were asked for, and none with which no model can be fitted.
@@ -295,12 +355,13 @@ class Search {
   const SearchOptions& options_;
   FlightFitOptions fit_;
   Standing now_;
-  std::vector<Candidate> kept_;          // found before all others, never exchanged
-  std::vector<Candidate> tried_;         // and found no better where they act
-  std::vector<Candidate> fell_;          // whose fit ran away
-  std::vector<Candidate> dropped_;       // the others do their work
-  std::optional<Standing> free_;         // the model as it is, where its lag was held
-  std::optional<Standing> before_mass_;  // where no cause that moves masses was in the model
+  std::vector<Candidate> kept_;                    // found before all others, never exchanged
+  std::vector<Candidate> tried_;                   // and found no better where they act
+  std::vector<Candidate> fell_;                    // whose fit ran away
+  std::vector<Candidate> dropped_;                 // the others do their work
+  std::vector<std::vector<Candidate>> looked_at_;  // in place of those found
+  std::optional<Standing> free_;                   // the model as it is, where its lag was held
+  std::optional<Standing> before_mass_;            // where no cause that moves masses was in the model
   std::size_t steps_before_mass_ = 0;
   SearchResult out_;
 };
