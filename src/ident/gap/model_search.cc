@@ -141,8 +141,8 @@ class Search {
       if (try_uneven(uneven, best.honest()) || best.candidate < 0) return true;
     }
     if (best.candidate < 0) return false;
-    if (!explains_its_share(best)) return take_alternative();
     const Candidate chosen = candidate(best.candidate);
+    if (!explains_its_share(best, chosen)) return take_alternative() || take_where_it_acts(best, chosen);
     if (moves_mass(chosen) && take_payload_instead(chosen)) return true;
     tell(0.1, described(chosen));
     auto next = tried_in_full(record_, vehicle_, options_.exclude, now_, best.candidate, fit_);
@@ -174,15 +174,14 @@ class Search {
 
   // One in the vehicle is measured against others there: by what they gained when they were found, or gain
   // now that the model is no longer bent in their place.
-  bool explains_its_share(const Further& next) const {
-    const bool mounting = is_of_mounting(candidate(next.candidate).name);
+  bool explains_its_share(const Further& next, const Candidate& cause) const {
+    const bool mounting = is_of_mounting(cause.name);
     const auto sum = [&](const std::vector<SearchStep>& steps) {
       double gain = 0;
       for (const SearchStep& s : steps)
         if (mounting || !is_of_mounting(s.name)) gain += s.gain;
       return gain;
     };
-    const Candidate& cause = candidate(next.candidate);
     const auto is_drag = [](const Candidate& c) {
       return c.name == "rotor_drag" || c.name == "parasitic_drag";
     };
@@ -317,6 +316,19 @@ class Search {
     return false;
   }
 
+  // Beside a strong cause one that as linearised changes from one part of the flight to the next, or gains
+  // too little, may do neither where it acts.
+  bool take_where_it_acts(const Further& next, const Candidate& cause) {
+    if (std::ranges::any_of(too_little_, [&](const Candidate& t) { return same(t, cause); })) return false;
+    too_little_.push_back(cause);
+    tell(0.1, described(cause));
+    auto trial = tried_in_full(record_, vehicle_, options_.exclude, now_, next.candidate, fit_);
+    if (!trial || !trial->own.passes() || !explains_its_share(trial->own, cause)) return false;
+    const double gain = trial->own.honest();
+    adopt(cause, std::move(*trial), gain);
+    return true;
+  }
+
   // The most that any further cause would explain.
   static double left_to_others(const Standing& at) {
     double left = 0;
@@ -359,6 +371,7 @@ class Search {
   std::vector<Candidate> tried_;                   // and found no better where they act
   std::vector<Candidate> fell_;                    // whose fit ran away
   std::vector<Candidate> dropped_;                 // the others do their work
+  std::vector<Candidate> too_little_;              // explained, as linearised, and were tried in full
   std::vector<std::vector<Candidate>> looked_at_;  // in place of those found
   std::optional<Standing> free_;                   // the model as it is, where its lag was held
   std::optional<Standing> before_mass_;            // where no cause that moves masses was in the model
