@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
+#include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/estimators/flight_record.h"
 #include "support/published_hover.h"
@@ -84,6 +87,44 @@ TEST(LogChecks, ASensorThatCountsInStepsHasTheNoiseOfItsSteps) {
   EXPECT_LT(sigma(kGyro), 0.2);
   EXPECT_LT(fine, 0.2 / std::sqrt(12.0));
   EXPECT_EQ(sigma(kPosition), place);
+}
+
+// Attitude as it would be read if angles in degrees were taken for radians.
+void take_degrees_for_radians(FlightLog& log) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    Eigen::Quaterniond q(log.q_WB[0][i], log.q_WB[1][i], log.q_WB[2][i], log.q_WB[3][i]);
+    const Eigen::Vector3d angles = kDegrees * q.normalized().toRotationMatrix().eulerAngles(2, 1, 0);
+    q = Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitZ()) *
+        Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitY()) *
+        Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitX());
+    log.q_WB[0][i] = q.w(), log.q_WB[1][i] = q.x(), log.q_WB[2][i] = q.y(), log.q_WB[3][i] = q.z();
+  }
+}
+
+TEST(LogChecks, AnglesInDegreesAreToldFromAVehicleThatHardlyTurns) {
+  for (const char* scenario : {"hover", "eight", "mixed"}) {
+    SimulationOptions options;
+    options.scenario = scenario, options.duration = 20.0, options.rate = 100.0;
+    FlightLog log = simulate_flight(testing::published_vehicle(), options).log;
+    EXPECT_NO_THROW(check_rates_against_attitude(log, 1)) << scenario;
+    take_degrees_for_radians(log);
+    EXPECT_THROW(check_rates_against_attitude(log, 1), InputError) << scenario;
+  }
+}
+
+// Noise of the attitude alone makes it turn some sixty times faster than this vehicle does.
+TEST(LogChecks, ANoisyAttitudeOfAVehicleThatHardlyTurnsIsNotInDegrees) {
+  FlightLog log = hover();
+  Random random(1);
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      log.w_B[k][i] = 3e-3 * random.normal();
+      log.q_WB[k + 1][i] = 2e-3 * random.normal();
+    }
+    log.q_WB[0][i] = 1.0;
+  }
+  EXPECT_NO_THROW(check_rates_against_attitude(log, 1));
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "ident/core/error.h"
 
@@ -277,8 +279,25 @@ void check_specific_force(FlightLog& log, long header_line, double gravity) {
                     down, -gravity));
 }
 
+namespace {
+
+// How fast attitude turns with the rates, by the slope of its squared turns over those of the rates: noise of
+// the attitude adds to all of them alike.
+double turns_with_rates(std::span<const std::array<double, 2>> squares) {
+  double x = 0, y = 0, xx = 0, xy = 0;
+  const auto n = static_cast<double>(squares.size());
+  for (const auto& [by_rates, by_attitude] : squares) x += by_rates / n, y += by_attitude / n;
+  for (const auto& [by_rates, by_attitude] : squares)
+    xx += (by_rates - x) * (by_rates - x), xy += (by_rates - x) * (by_attitude - y);
+  return xx > 0 ? std::sqrt(std::max(xy / xx, 0.0)) : 0.0;
+}
+
+}  // namespace
+
 void check_rates_against_attitude(const FlightLog& log, long header_line) {
   if (!log.has_rates() || !log.has_attitude()) return;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::vector<std::array<double, 2>> squares;  // of short turns, by rates and by attitude
   constexpr double kWindow = 0.02;  // s: short against a turn, even of angles that are taken for radians
   constexpr double kTurning = 0.1;  // rad/s: below it noise tells nothing
   double by_attitude = 0.0, by_rates = 0.0, rate_sum = 0.0;
@@ -291,6 +310,9 @@ void check_rates_against_attitude(const FlightLog& log, long header_line) {
     const double passed = start ? log.t[i] - log.t[*start] : 0.0;
     if (start && passed < kWindow) continue;
     const bool turning = start && turn(log, *start, i) > kTurning * passed;
+    if (start && passed < 0.2 && rates > 0)
+      if (const double by = rate_sum / static_cast<double>(rates) * passed; kDegrees * by < 1.0)
+        squares.push_back({by * by, std::pow(turn(log, *start, i), 2)});
     if (turning && passed < 0.2 && rates > 0) {
       by_attitude += turn(log, *start, i);
       by_rates += rate_sum / static_cast<double>(rates) * passed;
@@ -298,7 +320,6 @@ void check_rates_against_attitude(const FlightLog& log, long header_line) {
     start = i;
     rate_sum = 0.0, rates = 0;
   }
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   const double ratio = by_attitude > 0.0 ? by_rates / by_attitude : 1.0;
   const bool enough = by_attitude > 0.5;  // rad in all
   if (enough && ratio > 0.6 * kDegrees && ratio < 1.7 * kDegrees)
@@ -307,7 +328,8 @@ void check_rates_against_attitude(const FlightLog& log, long header_line) {
         fmt::format("are {:.3g} times faster than the attitude turns: they are in deg/s; name the unit in "
                     "the header, as in 'p [deg/s]'",
                     ratio));
-  if (enough && ratio * kDegrees > 0.6 && ratio * kDegrees < 1.7)
+  const bool with_rates = turns_with_rates(squares) > 0.3 * kDegrees;
+  if (enough && with_rates && ratio * kDegrees > 0.6 && ratio * kDegrees < 1.7)
     throw InputError(
         log.file, header_line, "phi, theta, psi",
         fmt::format("turn {:.3g} times faster than the rates say: they are in degrees; name the unit in "
