@@ -173,7 +173,8 @@ class Search {
   }
 
   // One in the vehicle is measured against others there: by what they gained when they were found, or gain
-  // now that the model is no longer bent in their place.
+  // now that the model is no longer bent in their place, for it may be no more than their form. How a sensor
+  // is mounted is no form of anything.
   bool explains_its_share(const Further& next, const Candidate& cause) const {
     const bool mounting = is_of_mounting(cause.name);
     const auto sum = [&](const std::vector<SearchStep>& steps) {
