@@ -57,6 +57,21 @@ TEST(FlightTrim, WithTheRotorsAsTheyAreEverythingBalances) {
   EXPECT_LT(by_channel.rowwise().mean().cwiseAbs().maxCoeff(), 2e-3) << by_channel.rowwise().mean();
 }
 
+// Noise of the path makes every acceleration look larger than it is.
+TEST(FlightTrim, NoiseOfThePathAsksForNoThrust) {
+  const Vehicle truth = testing::upright();
+  FlightLog log = path_only(truth, 3, {.seconds = 40.0, .noise = "none", .velocity = false});
+  Random random(1);
+  for (std::vector<double>& axis : log.x_W)
+    for (double& x : axis) x += 0.015 * random.normal();
+  const std::vector<double> p = parameter_vector(truth);
+  const std::vector<FlightLog> logs{log};
+  const FlightRecord record = make_flight_record(truth, p, logs);
+  const Eigen::VectorXd y = unbalance(record, make_trim(record, p), p);
+  const Eigen::Map<const Eigen::MatrixXd> by_channel(y.data(), kTrimChannels, y.size() / kTrimChannels);
+  EXPECT_NEAR(by_channel.row(0).mean(), 0.0, 4e-3);
+}
+
 TEST(FlightTrim, ThrustForACommandIsFoundAsWhole) {
   Vehicle stated = testing::upright();
   const Vehicle truth = stated;

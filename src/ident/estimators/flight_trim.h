@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "ident/core/result.h"
@@ -13,6 +15,13 @@
 namespace ident {
 
 constexpr int kTrimChannels = 4;  ///< thrust, moments about x, y, z
+
+/// s of a stretch, at least: motors and corrections average out.
+constexpr double kShortestStretch = 2.0;
+
+/// From flight to flight the rotors of a vehicle that nobody touched scatter by some two per cent; a factor
+/// of e more or less is nothing unusual. The flights themselves decide where there are several.
+constexpr double kUsualScatter = 0.02;
 
 /// Some seconds of flight, after take-off and before landing.
 struct TrimStretch {
@@ -29,6 +38,8 @@ struct Trim {
   double weight = 0.0, reach = 0.0;  ///< N, m
   double drag = 0.0;                 ///< kQ/kT as stated, m: the moment about z is in units of it
   int logs = 0;                      ///< that have a stretch
+
+  Eigen::Index rows() const { return kTrimChannels * static_cast<Eigen::Index>(stretches.size()); }
 };
 
 /// A linear fit of the shared unknowns to the balance. Only u and the covariances of `fit` are set.
@@ -64,6 +75,11 @@ std::vector<FreeConstant> trim_constants(const FlightRecord& record, const std::
 /// `hold_common`: what all rotors gain alike is the thrust constant's.
 TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& theta, bool hold_common,
                  const TrimFit* like = nullptr);
+
+/// The name of the thrust of rotor k, from 1, relative to what is stated; and whether a name is such a one.
+inline constexpr std::string_view kRotorRatio = "rotor_mismatch.ratio@";
+inline std::string rotor_ratio(std::size_t k) { return std::string(kRotorRatio) + std::to_string(k); }
+inline bool is_rotor_ratio(std::string_view name) { return name.starts_with(kRotorRatio); }
 
 /// Whether the vehicle file says what thrust each rotor has, as a refinement by balance leaves it.
 bool states_rotor_ratios(const Vehicle& vehicle);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ident/estimators/flight_trim.h"
+
 namespace ident {
 namespace {
 
@@ -45,8 +47,6 @@ class Builder {
 // gust does that pushes above it: more than this share of a payload's reach is taken for that.
 constexpr double kHighest = 0.05;
 
-constexpr std::string_view kRatio = "rotor_mismatch.ratio@";
-
 }  // namespace
 
 double payload_reach(const Vehicle& vehicle) {
@@ -79,9 +79,9 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
         wanted("parameter:" + c.name))
       problem.candidates.push_back({"parameter:" + c.name, {}, i, -1, false});
     // A rotor whose thrust is known to some per cent may have lost more: then that is the cause.
-    if (c.prior_std && !c.adopted && c.name.starts_with(kRatio) && wanted("rotor_mismatch"))
+    if (c.prior_std && !c.adopted && is_rotor_ratio(c.name) && wanted("rotor_mismatch"))
       problem.candidates.push_back(
-          {"rotor_mismatch", {}, i, std::stoi(c.name.substr(kRatio.size())) - 1, false});
+          {"rotor_mismatch", {}, i, std::stoi(c.name.substr(kRotorRatio.size())) - 1, false});
   }
   for (const EffectEntry& e : catalogue()) {
     const std::string name(e.info.name);
@@ -97,7 +97,7 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
       for (std::size_t k = 1; k <= vehicle.rotors.size(); ++k) {
         const std::string at = "@" + std::to_string(k);
         if (is(EffectId::rotor_mismatch))
-          build.effect(name, {"rotor_mismatch.ratio" + at}, false, static_cast<int>(k) - 1);
+          build.effect(name, {rotor_ratio(k)}, false, static_cast<int>(k) - 1);
         else
           build.effect(name, {"rotor_tilt.x" + at, "rotor_tilt.y" + at}, false, static_cast<int>(k) - 1);
       }
