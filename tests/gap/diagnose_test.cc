@@ -69,6 +69,20 @@ TEST(Diagnosis, ARotorThatLostMoreThanItsStatedThrustScattersIsAWeakRotor) {
   EXPECT_EQ(verdict_of(model, flight_of(published_vehicle(), 4))["status"], "none");
 }
 
+// A second diagnosis after a first one has one rotor in its model, and then another one wears.
+TEST(Diagnosis, ARotorWhoseThrustIsStatedSaysNothingOfTheOthers) {
+  Vehicle truth = published_vehicle();
+  truth.parameters["rotor_mismatch.ratio@1"] = {0.9, {}};
+  truth.parameters["rotor_tilt.x@2"] = {0.02, {}};
+  const Vehicle model = truth;
+  truth.parameters["rotor_mismatch.ratio@3"] = {0.85, {}};
+  const Diagnosis found = diagnose_gap(model, std::vector<FlightLog>{flight_of(truth, 7)});
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"rotor_mismatch"}))
+      << found.result.extra["verdict"];
+  EXPECT_NEAR(found.adopted.value("rotor_mismatch.ratio@3"), 0.85, 0.02);
+  EXPECT_EQ(verdict_of(model, flight_of(model, 7))["status"], "none");
+}
+
 // A turned sensor mimics a biased accelerometer for most of a flight, but not all: a regression on what the
 // sensors show finds the rest.
 TEST(Diagnosis, ALookAlikeIsNotNamedWhenTheCauseItselfMayNotBe) {

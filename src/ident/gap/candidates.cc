@@ -61,6 +61,17 @@ bool states_effect(const Vehicle& vehicle, std::string_view effect) {
                              [&](const auto& entry) { return entry.first.starts_with(prefix); });
 }
 
+bool states_constant(const Vehicle& vehicle, std::string_view name) {
+  const std::string_view effect = name.substr(0, name.find('.') + 1);
+  const auto rotor = [](std::string_view of) {
+    const std::size_t at = of.find('@');
+    return at == std::string_view::npos ? std::string_view() : of.substr(at);
+  };
+  return std::ranges::any_of(vehicle.parameters, [&](const auto& entry) {
+    return entry.first.starts_with(effect) && rotor(entry.first) == rotor(name);
+  });
+}
+
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,
                                  const std::vector<FreeConstant>& base,
                                  const std::vector<std::string>& exclude) {
@@ -85,21 +96,21 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
   }
   for (const EffectEntry& e : catalogue()) {
     const std::string name(e.info.name);
-    if (!wanted(name) || states_effect(vehicle, name)) continue;
-    if (name == "rotor_mismatch" && std::ranges::any_of(problem.candidates, [&](const Candidate& c) {
-          return c.name == name && c.parameter >= 0;
-        }))
-      continue;
     const auto is = [&](EffectId id) { return e.id == id; };
+    const bool at_rotors = is(EffectId::rotor_mismatch) || is(EffectId::rotor_tilt);
+    if (!wanted(name) || (!at_rotors && states_effect(vehicle, name))) continue;
     const bool flow = (e.info.touches & kTouchFlow) != 0;
-    if (is(EffectId::rotor_mismatch) || is(EffectId::rotor_tilt)) {
-      if (is(EffectId::rotor_tilt)) build.effect(name, {"rotor_tilt.x", "rotor_tilt.y"});
+    if (at_rotors) {  // one that is stated says nothing of the others
+      const auto unless_stated = [&](const std::vector<std::string>& names, int rotor) {
+        if (!states_constant(vehicle, names.front())) build.effect(name, names, false, rotor);
+      };
+      if (is(EffectId::rotor_tilt)) unless_stated({"rotor_tilt.x", "rotor_tilt.y"}, -1);
       for (std::size_t k = 1; k <= vehicle.rotors.size(); ++k) {
         const std::string at = "@" + std::to_string(k);
         if (is(EffectId::rotor_mismatch))
-          build.effect(name, {rotor_ratio(k)}, false, static_cast<int>(k) - 1);
+          unless_stated({rotor_ratio(k)}, static_cast<int>(k) - 1);
         else
-          build.effect(name, {"rotor_tilt.x" + at, "rotor_tilt.y" + at}, false, static_cast<int>(k) - 1);
+          unless_stated({"rotor_tilt.x" + at, "rotor_tilt.y" + at}, static_cast<int>(k) - 1);
       }
     } else if (is(EffectId::battery_sag)) {
       if (signals.commands)

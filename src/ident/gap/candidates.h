@@ -36,6 +36,9 @@ double payload_reach(const Vehicle& vehicle);
 /// Whether the vehicle file states this effect: then it is part of the model, no cause to be found.
 bool states_effect(const Vehicle& vehicle, std::string_view effect);
 
+/// The same for the effect of this constant; of an effect at single rotors, for that rotor.
+bool states_constant(const Vehicle& vehicle, std::string_view name);
+
 /// `base` are the constants of the current model (effects already adopted included), `exclude` names of
 /// causes that must not be tried.
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,

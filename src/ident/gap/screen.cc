@@ -133,8 +133,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   form.prior_g.head(own) = prior.slope.cwiseProduct(prior.residual);
   for (int i = 0; i < form.constants; ++i) {
     const FreeConstant& c = constants[static_cast<std::size_t>(i)];
-    const std::size_t dot = c.name.find('.');
-    if (dot == std::string::npos || states_effect(*record.vehicle, c.name.substr(0, dot))) continue;
+    if (c.name.find('.') == std::string::npos || states_constant(*record.vehicle, c.name)) continue;
     form.null[i] = (find_parameter(c.name)->null_value - c.start) / c.unit();
   }
   // Variance of the scores over blocks, each projected on the base, over what white residuals would give.
