@@ -68,7 +68,7 @@ void FlightSmoother::set_noise(const NoiseModel& noise) {
   noise_ = noise;
   if (!turn) return;
   set_axes();
-  accepted_ = {};  // steps along other axes
+  accepted() = {};  // steps along other axes
 }
 
 // The accelerations of all states along the axes of the noise.
@@ -134,7 +134,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
     one.exact = exact_;
     chunk::RowMatrix covariance;
     if (leverage) {
-      covariance = accepted_.P[k];
+      covariance = accepted().P[k];
       one.covariance = covariance.data();
     }
     evaluate_chunk(one, results_[k]);
@@ -191,15 +191,15 @@ VectorXd FlightSmoother::defect(std::size_t k) const {
 void FlightSmoother::predict(const VectorXd& u) {
   trial_u_ = u;
   steps_.clear();
-  if (accepted_.f.empty()) {
+  if (accepted().f.empty()) {
     trial_ = states_;
     return;
   }
   const VectorXd du = u - u_;
   steps_.resize(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
-    steps_[k] = -(accepted_.f[k] + accepted_.B[k].leftCols(du.size()) * du);
-    if (places_[k].linked) steps_[k] -= accepted_.G[k] * steps_[k + 1];
+    steps_[k] = -(accepted().f[k] + accepted().B[k].leftCols(du.size()) * du);
+    if (places_[k].linked) steps_[k] -= accepted().G[k] * steps_[k + 1];
     trial_[k] = moved(states_[k], steps_[k]);
   }
 }
@@ -218,7 +218,7 @@ void FlightSmoother::shorten_wild_steps(const VectorXd& u, bool leverage) {
 }
 
 const ReducedSystem& FlightSmoother::linearize(const VectorXd& u, bool leverage) {
-  if (leverage) posterior_covariances(accepted_);
+  if (leverage) posterior_covariances(accepted());
   predict(u);
   evaluate(u, true, leverage);
   if (gentle_) shorten_wild_steps(u, leverage);
@@ -235,7 +235,7 @@ const ReducedSystem& FlightSmoother::relinearize() {
 void FlightSmoother::accept() {
   states_ = trial_;
   u_ = trial_u_;
-  accepted_ = trial_elimination_;
+  accepted_at_ = last_at_;
 }
 
 // Ends before the last round where one has changed nothing to speak of.
@@ -259,7 +259,7 @@ std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
     if (places_[k].linked) continue;
     // Not linked further on: D holds all that is known of this state from the past.
     const MatrixXd E = chunk::E(results_[k], n).leftCols(n);
-    ends.push_back({results_[k].x_end, E * accepted_.D_inverse[k] * E.transpose()});
+    ends.push_back({results_[k].x_end, E * accepted().P[k] * E.transpose()});
   }
   return ends;
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -131,10 +132,12 @@ class FlightSmoother {
   std::vector<Eigen::VectorXd> defects() const;
 
  private:
-  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1).
+  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). P is the covariance of x_k from the arc before the next chunk
+  // or, once `smoothed`, from all of it; `cross` that of x_k and x_(k+1). Shared unknowns are held in both.
   struct Elimination {
-    std::vector<Eigen::MatrixXd> G, B, D_inverse, P, cross;
+    std::vector<Eigen::MatrixXd> G, B, P, cross;
     std::vector<Eigen::VectorXd> f;
+    bool smoothed = false;
   };
 
   struct ArcElimination;
@@ -165,6 +168,10 @@ class FlightSmoother {
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void set_axes();
   void posterior_covariances(Elimination& el) const;
+  Elimination& accepted() { return eliminations_[accepted_at_]; }
+  const Elimination& accepted() const { return eliminations_[accepted_at_]; }
+  Elimination& last() { return eliminations_[last_at_]; }
+  const Elimination& last() const { return eliminations_[last_at_]; }
 
   const FlightRecord* record_;
   const Theta* theta_;
@@ -180,7 +187,9 @@ class FlightSmoother {
   std::vector<ChunkResult> results_;
   std::vector<Eigen::MatrixXd> profiles_;
   Eigen::VectorXd u_, trial_u_;  // of the accepted and of the last linearisation
-  Elimination accepted_, trial_elimination_;
+  // The accepted elimination and the last one; the same one from accept() to the next eliminate().
+  std::array<Elimination, 2> eliminations_;
+  std::size_t accepted_at_ = 0, last_at_ = 0;
   ReducedSystem reduced_;
 };
 

@@ -94,7 +94,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
                                    const VectorXd* held) {
   const int n = record_->layout.size, own = theta_->size(), all = static_cast<int>(shared());
   const int m = held ? 0 : all;
-  Elimination& el = trial_elimination_;
+  Elimination& el = last();
   ArcElimination arc(n, m, all);
   const int from = arc.from, right = from + arc.shared;
   const DenseRows& dense = dense_rows();
@@ -143,15 +143,17 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     if (linked) el.G[k] = arc.solved.leftCols(n);
     el.B[k] = arc.solved.middleCols(from, m);
     el.f[k] = arc.solved.col(from + m);
-    el.D_inverse[k] = arc.solved.middleCols(right, n);
+    el.P[k] = arc.solved.middleCols(right, n);
   }
   sum = {arc.cost, arc.g(), arc.S(), arc.log_det};
 }
 
 void FlightSmoother::eliminate(const VectorXd* held) {
-  Elimination& el = trial_elimination_;
+  if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
+  Elimination& el = last();
   const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;
-  el.G.resize(K), el.B.resize(K), el.f.resize(K), el.D_inverse.resize(K);
+  el.G.resize(K), el.B.resize(K), el.f.resize(K), el.P.resize(K), el.cross.resize(K);
+  el.smoothed = false;
   std::vector<ReducedSystem> parts(arcs);
   in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a], held); });
   if (held) return;
@@ -165,12 +167,10 @@ void FlightSmoother::eliminate(const VectorXd* held) {
 
 // Backward recursion for the posterior covariance of each state and of neighbours, shared unknowns held.
 void FlightSmoother::posterior_covariances(Elimination& el) const {
-  const std::size_t K = places_.size();
-  el.P.resize(K);
-  el.cross.resize(K);
+  if (el.smoothed) return;
+  el.smoothed = true;
   in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
     for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
-      el.P[k] = el.D_inverse[k];
       if (!places_[k].linked) continue;
       el.cross[k].noalias() = -el.G[k] * el.P[k + 1];
       el.P[k].noalias() -= el.cross[k] * el.G[k].transpose();
@@ -194,7 +194,7 @@ VectorXd FlightSmoother::shared_optimum() const {
 
 // Steps of the states for that of the shared unknowns: by the last elimination, which may have held it.
 std::vector<VectorXd> FlightSmoother::state_steps(const VectorXd& du) const {
-  const Elimination& el = trial_elimination_;
+  const Elimination& el = last();
   std::vector<VectorXd> dx(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
     dx[k] = -el.f[k];
@@ -208,8 +208,8 @@ std::vector<VectorXd> FlightSmoother::state_steps(const VectorXd& du) const {
 std::vector<MatrixXd> FlightSmoother::state_slopes() const {
   std::vector<MatrixXd> dX(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
-    dX[k] = -accepted_.B[k];
-    if (places_[k].linked) dX[k].noalias() -= accepted_.G[k] * dX[k + 1];
+    dX[k] = -accepted().B[k];
+    if (places_[k].linked) dX[k].noalias() -= accepted().G[k] * dX[k + 1];
   }
   return dX;
 }

@@ -86,7 +86,7 @@ double FlightSmoother::retune(int rounds) {
     const bool again = round < 3 || round % kHeld == 0;
     if (round > 0) eliminate(again ? nullptr : &du);
     if (again) du = shared_optimum();
-    Elimination& el = trial_elimination_;
+    Elimination& el = last();
     posterior_covariances(el);
     const std::vector<VectorXd> dx = state_steps(du);
     struct LogMoments {
