@@ -21,6 +21,7 @@ constexpr int kFirstSteps = 4;
 // of it for the first steps.
 constexpr double kFar = 1e4;
 constexpr double kCalm = 10.0;
+constexpr double kHeldChunk = 0.2, kSureChunk = 0.1;  // lengths of the first chunks, s
 constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise bring that down again
 
 using Eigen::MatrixXd;
@@ -34,11 +35,23 @@ double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& opti
   return std::max(options.tolerance, options.tolerance_of_misfit * missed);
 }
 
+// Mean square of the residuals, in variances.
+double square_of(const FlightSmoother& smoother) {
+  return smoother.reduced().cost / samples_of(smoother.record());
+}
+
+// Chunks before the noise is known, s. Where attitude or rates are not measured, states drift from what little
+// holds them.
+double first_chunk(const FlightRecord& record) {
+  const bool held = record.signals.rates && record.signals.attitude;
+  return std::max(held ? kHeldChunk : kSureChunk, 4 * record.interval);
+}
+
 // Very far from the minimum, steps follow what noise there is against everything that was known beforehand,
 // to where chance takes them. Noise as large as the residuals lets the first ones keep to it; rounds of noise
 // bring it down again.
 void calm(FlightSmoother& smoother) {
-  const double square = smoother.reduced().cost / samples_of(smoother.record());
+  const double square = square_of(smoother);
   if (!(square > kFar) || !std::isfinite(square)) return;
   NoiseModel noise = smoother.noise();
   for (double& sigma : noise.sigma) sigma *= std::sqrt(std::min(square / kCalm, kMostCalm));
@@ -73,15 +86,23 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   const auto tell = [&](double share) {
     if (options.progress) options.progress(share);
   };
-  double chunk = options.chunk_seconds > 0 ? options.chunk_seconds : std::max(0.1, 4 * record.interval);
-  auto smoother = std::make_shared<FlightSmoother>(
-      record, theta, options.noise.value_or(initial_noise(record)), chunk, options.threads);
-  // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
-  smoother->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
-  if (options.near && options.near->chunks().size() == smoother->chunks().size())
-    smoother->set_states(options.near->states());
   VectorXd u = VectorXd::Zero(theta.size());
-  smoother->settle(u, 1);
+  double chunk = options.chunk_seconds > 0 ? options.chunk_seconds : first_chunk(record);
+  const auto begin = [&] {
+    auto begun = std::make_shared<FlightSmoother>(
+        record, theta, options.noise.value_or(initial_noise(record)), chunk, options.threads);
+    // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
+    begun->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
+    if (options.near && options.near->chunks().size() == begun->chunks().size())
+      begun->set_states(options.near->states());
+    begun->settle(u, 1);
+    return begun;
+  };
+  std::shared_ptr<FlightSmoother> smoother = begin();
+  if (options.chunk_seconds <= 0 && !(square_of(*smoother) < kFar)) {
+    chunk = std::max(kSureChunk, 4 * record.interval);
+    smoother = begin();
+  }
   if (options.estimate_noise) calm(*smoother);
   const auto restart = [&] {
     smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
