@@ -18,6 +18,7 @@ Outcome run(const Options& options, Context& context) {
   Progress progress("diagnosing");
   GapOptions gap;
   gap.exclude = options.exclude;
+  gap.shown = context.shown;
   gap.progress = [&](double share, const std::string& tried) { progress.update(share, tried); };
   const Diagnosis diagnosis = diagnose_gap(input.vehicle, input.logs, gap);
   if (!options.write_params.empty())

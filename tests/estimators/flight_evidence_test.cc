@@ -89,18 +89,18 @@ TEST(FlightResiduals, OfATrueModelAreWhiteAndOfTheSizeOfTheNoise) {
 
 TEST(HeldOutTraces, FollowTheMeasurementWithTheTrueModelAndLeaveItWithAWrongThrust) {
   const Fitted f;
-  const RecordSplit split = split_record(f.record, 0.5);
+  const FlightRecord held_out = held_out_of(f.record, 0.5);
   const Eigen::VectorXd wrong = Eigen::VectorXd::Zero(f.theta->size());  // kT three percent too high
   PredictionOptions options;
   options.horizons = {0.5};
-  const auto before = predict_windows(split.held_out, *f.theta, wrong, f.fit.noise, options);
-  const auto after = predict_windows(split.held_out, *f.theta, f.fit.u, f.fit.noise, options);
+  const auto before = predict_windows(held_out, *f.theta, wrong, f.fit.noise, options);
+  const auto after = predict_windows(held_out, *f.theta, f.fit.u, f.fit.noise, options);
   const std::vector<int> channels = channels_that_gain(before[0], after[0]);
   ASSERT_FALSE(channels.empty());
   // Thrust acts along z and, through the slanted rotors, about it.
   EXPECT_TRUE(channels[0] % 3 == 2) << "not in " << channel_name(channels[0]);
   const std::vector<Plot> plots =
-      prediction_traces(split.held_out, {"given", f.theta.get(), wrong}, {"found", f.theta.get(), f.fit.u},
+      prediction_traces(held_out, {"given", f.theta.get(), wrong}, {"found", f.theta.get(), f.fit.u},
                         f.fit.noise, {kVelocity + 2}, {0.5});
   ASSERT_EQ(plots.size(), 1U);
   ASSERT_EQ(plots[0].series.size(), 3U);

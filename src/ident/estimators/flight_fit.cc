@@ -40,8 +40,8 @@ double square_of(const FlightSmoother& smoother) {
   return smoother.reduced().cost / samples_of(smoother.record());
 }
 
-// Chunks before the noise is known, s. Where attitude or rates are not measured, states drift from what little
-// holds them.
+// Chunks before the noise is known, s. Where attitude or rates are not measured, states drift from what
+// little holds them.
 double first_chunk(const FlightRecord& record) {
   const bool held = record.signals.rates && record.signals.attitude;
   return std::max(held ? kHeldChunk : kSureChunk, 4 * record.interval);

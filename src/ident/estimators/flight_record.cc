@@ -259,21 +259,18 @@ FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
   return out;
 }
 
-RecordSplit split_record(const FlightRecord& record, double training_share) {
-  FlightRecord empty = without_arcs(record);
-  RecordSplit split{empty, empty};
+FlightRecord held_out_of(const FlightRecord& record, double training_share) {
+  FlightRecord held_out = without_arcs(record);
+  held_out.duration = 0;
   for (const FlightArc& arc : record.arcs) {
     const double border = arc.t.front() + training_share * (arc.t.back() - arc.t.front());
     const auto cut =
         static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), border) - arc.t.begin());
-    if (cut >= 8) split.training.arcs.push_back(arc.piece(0, cut));
-    if (arc.rows() - cut >= 8) split.held_out.arcs.push_back(arc.piece(cut, arc.rows()));
+    if (arc.rows() - cut < 8) continue;
+    held_out.arcs.push_back(arc.piece(cut, arc.rows()));
+    held_out.duration += arc.t.back() - held_out.arcs.back().t.front();
   }
-  for (FlightRecord* half : {&split.training, &split.held_out}) {
-    half->duration = 0;
-    for (const FlightArc& arc : half->arcs) half->duration += arc.t.back() - arc.t.front();
-  }
-  return split;
+  return held_out;
 }
 
 std::string channel_name(int channel) {

@@ -61,11 +61,11 @@ void require_turning(const Signals& logged);
 /// The record without its arcs.
 FlightRecord without_arcs(const FlightRecord& record);
 
-/// The arcs cut at `held_out` of each log's time: the part before, the part after.
-struct RecordSplit {
-  FlightRecord training, held_out;
-};
-RecordSplit split_record(const FlightRecord& record, double training_share);
+/// Share of each log to which a model is fitted that is judged on the rest.
+inline constexpr double kTrainingShare = 0.7;
+
+/// What is left of every arc after `training_share` of its time.
+FlightRecord held_out_of(const FlightRecord& record, double training_share);
 
 /// Name of a channel: p, ax, attitude x, omega1.
 std::string channel_name(int channel);

@@ -38,7 +38,7 @@ nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
 }
 
 Section validation(const FlightRecord& held_out, const Theta& theta, const VectorXd& before,
-                   const FlightFit& fit, Result& result) {
+                   const FlightFit& fit, Shown shown, Result& result) {
   Table table{"Prediction error on held-out flight, in noise standard deviations",
               {"horizon s", "parameters before", "refined", "floor", "windows"},
               {}};
@@ -57,16 +57,18 @@ Section validation(const FlightRecord& held_out, const Theta& theta, const Vecto
     all.push_back(one);
   }
   result.fit["held_out"] = all;
-  std::vector<int> channels = channels_that_gain(stated.back(), refined.back());
-  channels.resize(std::min<std::size_t>(channels.size(), 2));
-  return {
+  Section section{
       .title = "Held-out prediction",
       .text =
           "Fitted to the first 70 % of each log, judged on the rest: the state is estimated from the past "
           "only, then predicted.",
-      .tables = {std::move(table)},
-      .plots = prediction_traces(held_out, {"parameters before", &theta, before}, {"refined", &theta, fit.u},
-                                 fit.noise, channels, {0.5, 1.0})};
+      .tables = {std::move(table)}};
+  if (shown != Shown::pictures) return section;
+  std::vector<int> channels = channels_that_gain(stated.back(), refined.back());
+  channels.resize(std::min<std::size_t>(channels.size(), 2));
+  section.plots = prediction_traces(held_out, {"parameters before", &theta, before},
+                                    {"refined", &theta, fit.u}, fit.noise, channels, {0.5, 1.0});
+  return section;
 }
 
 }  // namespace
@@ -243,15 +245,16 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
                       std::back_inserter(result.sections));
   if (options.validate && record.duration > 6) {
-    const RecordSplit split = split_record(record, 0.7);
+    const FlightRecord held_out = held_out_of(record, kTrainingShare);
     FlightFit view = fit;
     view.u = fit_of_blocks(fit, theta, [&](const ScoreBlock& block) {
       const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
-      return block.to <= arc.t.front() + 0.7 * (arc.t.back() - arc.t.front());
+      return block.to <= arc.t.front() + kTrainingShare * (arc.t.back() - arc.t.front());
     });
     VectorXd before = view.u;
-    before.head(n).setZero();  // the constants as stated, with the gyro biases of the fit
-    result.sections.push_back(validation(split.held_out, theta, before, view, result));
+    before.head(n).setZero();                     // the constants as stated, with the gyro biases of the fit
+    fit.smoother.reset(), view.smoother.reset();  // the largest thing in memory
+    result.sections.push_back(validation(held_out, theta, before, view, options.shown, result));
   }
   int known = 0;
   for (const Parameter& q : result.parameters) known += q.identifiable;

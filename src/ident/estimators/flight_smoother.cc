@@ -252,8 +252,6 @@ void FlightSmoother::settle(const VectorXd& u, int rounds) {
 
 std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
   const int n = record_->layout.size;
-  trial_ = states_;
-  evaluate(u_, true, false);
   std::vector<End> ends;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (places_[k].linked) continue;

@@ -118,7 +118,8 @@ class FlightSmoother {
   };
   Along along(const Eigen::VectorXd& du);
 
-  /// State at the last row of each arc, from all data before it, with its covariance.
+  /// State at the last row of each arc, from all data before it, with its covariance, at the accepted
+  /// linearisation.
   struct End {
     FlightState<double> x;
     Eigen::MatrixXd P;
@@ -132,8 +133,9 @@ class FlightSmoother {
   std::vector<Eigen::VectorXd> defects() const;
 
  private:
-  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). P is the covariance of x_k from the arc before the next chunk
-  // or, once `smoothed`, from all of it; `cross` that of x_k and x_(k+1). Shared unknowns are held in both.
+  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). P is the covariance of x_k from the arc before the next
+  // chunk or, once `smoothed`, from all of it; `cross` that of x_k and x_(k+1). Shared unknowns are held in
+  // both.
   struct Elimination {
     std::vector<Eigen::MatrixXd> G, B, P, cross;
     std::vector<Eigen::VectorXd> f;

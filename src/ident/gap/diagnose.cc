@@ -132,12 +132,12 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const Rival rival = generic_rival(record, *search.best.theta, search.best.fit, search.form.noise);
 
   // Held out: both models fitted to the first 70 % of each log, judged on the rest under the final noise.
-  const RecordSplit split = split_record(record, 0.7);
+  const FlightRecord held_out = held_out_of(record, kTrainingShare);
   Json horizons = Json::array();
   GapClosed gap;
   const auto training = [&](const ScoreBlock& block) {
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
-    return block.to <= arc.t.front() + 0.7 * (arc.t.back() - arc.t.front());
+    return block.to <= arc.t.front() + kTrainingShare * (arc.t.back() - arc.t.front());
   };
   const Theta& best = *search.best.theta;
   const Eigen::VectorXd u_best = fit_of_blocks(search.best.fit, best, training);
@@ -146,8 +146,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Eigen::VectorXd stated = search.base.fit.u;
   stated.head(search.base.theta->constants_count()).setZero();
   const NoiseModel& noise = search.form.noise;
-  const auto a = predict_windows(split.held_out, *search.base.theta, stated, noise, windows);
-  const auto b = predict_windows(split.held_out, best, u_best, noise, windows);
+  const auto a = predict_windows(held_out, *search.base.theta, stated, noise, windows);
+  const auto b = predict_windows(held_out, best, u_best, noise, windows);
   for (std::size_t h = 0; h < windows.horizons.size(); ++h) {
     const double horizon = windows.horizons[h];
     const GapClosed one = gap_closed(a[h], b[h]);
@@ -185,7 +185,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     if (search.best.adopted.size() == 1) return gap.closed;
     PredictionOptions fewer = windows;  // every other one tells causes apart
     fewer.horizons = {windows.horizons[1]}, fewer.spacing *= 2;
-    const auto c = predict_windows(split.held_out, best, with_only(search.best, u_best, cause), noise, fewer);
+    const auto c = predict_windows(held_out, best, with_only(search.best, u_best, cause), noise, fewer);
     return gap_closed(same_windows(a[1], c[0]), c[0]).closed;
   };
   result.extra["candidates"] = causes_tried(search, closed_alone);
@@ -237,7 +237,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =
-      evidence_of(record, search, {split.held_out, stated, u_best, noise, a.back(), b.back()});
+      evidence_of(record, search, {held_out, stated, u_best, noise, a.back(), b.back()}, options.shown);
   result.extra["signatures"] = to_json(evidence.signatures);
   result.sections = gap_sections(result.extra, before, after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ident/core/result.h"
+#include "ident/core/shown.h"
 #include "ident/data/flight_log.h"
 #include "ident/model/vehicle.h"
 
@@ -18,6 +19,7 @@ struct GapOptions {
   std::vector<std::string> exclude;  ///< causes that must not be tried
   int most_causes = 4;               ///< in the vehicle; how its sensor is mounted comes on top
   std::function<void(double, const std::string&)> progress;
+  Shown shown = Shown::pictures;  ///< pictures beyond that are left out
 };
 
 struct Diagnosis {

@@ -16,14 +16,16 @@ std::string name_of_found(const FittedModel& best) {
 
 }  // namespace
 
-GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search,
-                        const HeldOutFlight& held_out) {
+GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search, const HeldOutFlight& held_out,
+                        Shown shown) {
+  GapEvidence evidence{{}, signatures(record, search)};
+  if (shown != Shown::pictures) return evidence;
   std::vector<int> channels = channels_that_gain(held_out.errors_before, held_out.errors_after);
   channels.resize(std::min(channels.size(), kChannelsShown));
   const TracedModel given{"model as given", search.base.theta.get(), held_out.as_given},
       found{name_of_found(search.best), search.best.theta.get(), held_out.found};
-  return {prediction_traces(held_out.record, given, found, held_out.noise, channels, {0.5, 1.0}),
-          signatures(record, search)};
+  evidence.held_out = prediction_traces(held_out.record, given, found, held_out.noise, channels, {0.5, 1.0});
+  return evidence;
 }
 
 }  // namespace ident

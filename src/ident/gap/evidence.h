@@ -1,13 +1,15 @@
 // What convinces an engineer besides numbers: signatures of the causes, held-out flight before and after.
 #pragma once
 
+#include "ident/core/shown.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/gap/signature.h"
 
 namespace ident {
 
 struct GapEvidence {
-  std::vector<Plot> held_out;  ///< predictions over 0.5 and 1 s in the channels where the causes gain most
+  std::vector<Plot> held_out;  ///< predictions over 0.5 and 1 s in the channels where the causes gain most,
+                               ///< where pictures are shown
   std::vector<Signature> signatures;
 };
 
@@ -20,7 +22,7 @@ struct HeldOutFlight {
   const std::vector<PredictionWindow>&errors_before, &errors_after;
 };
 
-GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search,
-                        const HeldOutFlight& held_out);
+GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search, const HeldOutFlight& held_out,
+                        Shown shown);
 
 }  // namespace ident
