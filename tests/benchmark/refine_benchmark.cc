@@ -124,6 +124,17 @@ int run(int runs) {
     if (took < 0) throw std::runtime_error("ident simulate failed");
   };
   fly(log, "60"), fly(longer, "240");
+  // Before anything is in memory here: a child's peak begins with its parent's size.
+  const auto refine = [&](const std::string& file) {
+    std::pair<double, double> best{1e300, 0};
+    for (int i = 0; i < runs; ++i)
+      best = std::min(
+          best, command({IDENT_PROGRAM, "flightlog", file, "--vehicle", vehicle, "--refine", "--json"}));
+    if (best.first < 0) throw std::runtime_error("ident flightlog failed");
+    return best;
+  };
+  const auto [whole, memory] = refine(log);
+  const auto [whole_long, memory_long] = refine(longer);
   Problem problem(vehicle, log);
   const Theta& theta = *problem.theta;
   if (theta.size() != kPlainShared) throw std::runtime_error("ten constants are expected");
@@ -160,11 +171,7 @@ int run(int runs) {
   Problem four_times(vehicle, longer);
   const double fast_long = least_seconds(runs, [&] { fit_fast(four_times, 2, tolerance); });
   row("fit of 240 s, two cores", fast_long);
-  const auto [whole, memory] =
-      command({IDENT_PROGRAM, "flightlog", log, "--vehicle", vehicle, "--refine", "--json"});
   row("the whole command, noise and prediction too", whole, fmt::format("{:.0f} MiB", memory));
-  const auto [whole_long, memory_long] =
-      command({IDENT_PROGRAM, "flightlog", longer, "--vehicle", vehicle, "--refine", "--json"});
   row("the whole command on 240 s", whole_long, fmt::format("{:.0f} MiB", memory_long));
   std::filesystem::remove_all(folder);
 

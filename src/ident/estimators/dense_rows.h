@@ -2,6 +2,7 @@
 // set of this machine: the elimination of states spends most of its time in them.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace ident {
@@ -13,11 +14,11 @@ constexpr int padded(int columns) { return (columns + kRowPad - 1) / kRowPad * k
 /// A matrix by its first element and the distance of its rows, both in doubles.
 struct Rows {
   double* data = nullptr;
-  int stride = 0;
+  std::ptrdiff_t stride = 0;
 };
 struct ConstRows {
   const double* data = nullptr;
-  int stride = 0;
+  std::ptrdiff_t stride = 0;
 };
 
 /// One implementation for each instruction set. `columns` are padded.

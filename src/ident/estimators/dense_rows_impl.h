@@ -15,8 +15,11 @@ class DenseRowsOf {
   static constexpr int kWidth = Isa::kWidth;
   typedef double Pack __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
 
-  static const Pack& at(const double* x) { return *reinterpret_cast<const Pack*>(x); }
-  static Pack& at(double* x) { return *reinterpret_cast<Pack*>(x); }
+  // The pack of that number from x on.
+  static const Pack& at(const double* x, int pack) {
+    return *reinterpret_cast<const Pack*>(x + std::ptrdiff_t{pack} * kWidth);
+  }
+  static Pack& at(double* x, int pack) { return *reinterpret_cast<Pack*>(x + std::ptrdiff_t{pack} * kWidth); }
 
   static void add_products(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign) {
     int j = 0;
@@ -40,7 +43,7 @@ class DenseRowsOf {
       const double* right = B.data + k * B.stride + column;
 #pragma GCC unroll 4
       for (int j = 0; j < J; ++j) {
-        const Pack b = at(right + j * kWidth);
+        const Pack b = at(right, j);
 #pragma GCC unroll 4
         for (int i = 0; i < I; ++i) sum[i][j] += left[i] * b;
       }
@@ -48,7 +51,7 @@ class DenseRowsOf {
 #pragma GCC unroll 4
     for (int i = 0; i < I; ++i)
 #pragma GCC unroll 4
-      for (int j = 0; j < J; ++j) at(C.data + (row + i) * C.stride + column + j * kWidth) += sign * sum[i][j];
+      for (int j = 0; j < J; ++j) at(C.data + (row + i) * C.stride + column, j) += sign * sum[i][j];
   }
 
   static void forward(ConstRows L, int n, Rows R, int columns) {
@@ -64,22 +67,22 @@ class DenseRowsOf {
   }
 
   // Row i of R less the rows [from, to) times their coefficients, over the pivot.
-  static void solve_row(Rows R, int i, int column, int from, int to, const double* coefficient, int stride,
-                        double pivot) {
+  static void solve_row(Rows R, int i, int column, int from, int to, const double* coefficient,
+                        std::ptrdiff_t stride, double pivot) {
     constexpr int J = kRowPad / kWidth;
     double* own = R.data + i * R.stride + column;
     Pack x[J];
 #pragma GCC unroll 4
-    for (int j = 0; j < J; ++j) x[j] = at(own + j * kWidth);
+    for (int j = 0; j < J; ++j) x[j] = at(own, j);
     for (int k = from; k < to; ++k) {
       const double c = coefficient[k * stride];
       const double* other = R.data + k * R.stride + column;
 #pragma GCC unroll 4
-      for (int j = 0; j < J; ++j) x[j] -= c * at(other + j * kWidth);
+      for (int j = 0; j < J; ++j) x[j] -= c * at(other, j);
     }
     const double inverse = 1.0 / pivot;
 #pragma GCC unroll 4
-    for (int j = 0; j < J; ++j) at(own + j * kWidth) = inverse * x[j];
+    for (int j = 0; j < J; ++j) at(own, j) = inverse * x[j];
   }
 };
 

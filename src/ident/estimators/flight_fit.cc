@@ -185,13 +185,14 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
   smoother.set_exact(false);
 }
 
-VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
-                       const std::function<bool(const ScoreBlock&)>& take) {
+VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const Theta& theta,
+                         double training_share) {
   const PriorTerms prior = theta.prior(fit.u);
   MatrixXd H = prior_information(theta, fit.u);
   VectorXd g = prior.slope.cwiseProduct(prior.residual);
   for (const ScoreBlock& block : fit.blocks)
-    if (take(block)) H += block.information, g += block.score;
+    if (block.to <= training_end(record.arcs[static_cast<std::size_t>(block.arc)], training_share))
+      H += block.information, g += block.score;
   return fit.u - inverse_of(H) * g;
 }
 

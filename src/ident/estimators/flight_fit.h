@@ -48,9 +48,10 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
 /// would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
-/// The shared unknowns as the blocks that `take` accepts would have them: one Newton step from the fit.
-Eigen::VectorXd fit_of_blocks(const FlightFit& fit, const Theta& theta,
-                              const std::function<bool(const ScoreBlock&)>& take);
+/// The shared unknowns as the first `training_share` of every arc would have them: one Newton step from the
+/// fit.
+Eigen::VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const Theta& theta,
+                                double training_share);
 
 /// Covariance of u from `draws` block bootstraps: blocks drawn with repetition, one Newton step from the fit
 /// for each draw; what the priors say is drawn anew with them. Seeded.

@@ -259,11 +259,15 @@ FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
   return out;
 }
 
+double training_end(const FlightArc& arc, double training_share) {
+  return arc.t.front() + training_share * (arc.t.back() - arc.t.front());
+}
+
 FlightRecord held_out_of(const FlightRecord& record, double training_share) {
   FlightRecord held_out = without_arcs(record);
   held_out.duration = 0;
   for (const FlightArc& arc : record.arcs) {
-    const double border = arc.t.front() + training_share * (arc.t.back() - arc.t.front());
+    const double border = training_end(arc, training_share);
     const auto cut =
         static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), border) - arc.t.begin());
     if (arc.rows() - cut < 8) continue;

@@ -64,6 +64,9 @@ FlightRecord without_arcs(const FlightRecord& record);
 /// Share of each log to which a model is fitted that is judged on the rest.
 inline constexpr double kTrainingShare = 0.7;
 
+/// End (s) of the first `training_share` of an arc's time.
+double training_end(const FlightArc& arc, double training_share);
+
 /// What is left of every arc after `training_share` of its time.
 FlightRecord held_out_of(const FlightRecord& record, double training_share);
 

@@ -247,10 +247,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (options.validate && record.duration > 6) {
     const FlightRecord held_out = held_out_of(record, kTrainingShare);
     FlightFit view = fit;
-    view.u = fit_of_blocks(fit, theta, [&](const ScoreBlock& block) {
-      const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
-      return block.to <= arc.t.front() + kTrainingShare * (arc.t.back() - arc.t.front());
-    });
+    view.u = fit_of_training(fit, record, theta, kTrainingShare);
     VectorXd before = view.u;
     before.head(n).setZero();                     // the constants as stated, with the gyro biases of the fit
     fit.smoother.reset(), view.smoother.reset();  // the largest thing in memory

@@ -33,18 +33,16 @@ std::vector<Part> parts_of(const FlightRecord& record) {
     const auto at = std::ranges::find(parts, name, &Part::name);
     return at != parts.end() ? *at : parts.emplace_back(Part{name, {}, VectorXd::Zero(layout.size)});
   };
-  const auto add = [&](std::size_t name, int axis, std::initializer_list<int> channels,
+  const auto add = [&](int name, int axis, std::initializer_list<int> channels,
                        std::initializer_list<int> states) {
-    Part& part = part_named(names[name]);
+    Part& part = part_named(names[static_cast<std::size_t>(name)]);
     for (const int c : channels) part.channels[static_cast<std::size_t>(c + axis)] = true;
     for (const int first : states)
       if (first >= 0) part.states[first + axis] = 1;
   };
+  for (int k = 0; k < 3; ++k) add(k, k, {kGyro, kAttitude}, {layout.w, layout.attitude, layout.w_dot});
   for (int k = 0; k < 3; ++k)
-    add(static_cast<std::size_t>(k), k, {kGyro, kAttitude}, {layout.w, layout.attitude, layout.w_dot});
-  for (int k = 0; k < 3; ++k)
-    add(static_cast<std::size_t>(k) + 3, k, {kForce, kVelocity, kPosition},
-        {layout.v, layout.x, layout.v_dot});
+    add(k + 3, k, {kForce, kVelocity, kPosition}, {layout.v, layout.x, layout.v_dot});
   if (layout.motors < 0) return parts;
   // Motors that nobody measures may stray a little from their equation, and that little says something too.
   Part& motors = part_named(record.signals.rotor_speeds ? "rotor speeds" : "motors (not measured)");

@@ -135,12 +135,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const FlightRecord held_out = held_out_of(record, kTrainingShare);
   Json horizons = Json::array();
   GapClosed gap;
-  const auto training = [&](const ScoreBlock& block) {
-    const FlightArc& arc = record.arcs[static_cast<std::size_t>(block.arc)];
-    return block.to <= arc.t.front() + kTrainingShare * (arc.t.back() - arc.t.front());
-  };
   const Theta& best = *search.best.theta;
-  const Eigen::VectorXd u_best = fit_of_blocks(search.best.fit, best, training);
+  const Eigen::VectorXd u_best = fit_of_training(search.best.fit, record, best, kTrainingShare);
   const PredictionOptions windows;
   // "Before" is the model as it was given: bench values, with the biases of the fit.
   Eigen::VectorXd stated = search.base.fit.u;

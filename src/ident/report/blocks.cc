@@ -1,6 +1,8 @@
 // Fills the tables that HTML, Markdown and terminal have in common.
 #include "ident/report/blocks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "ident/core/format_number.h"
@@ -27,7 +29,7 @@ void add_leaves(const nlohmann::ordered_json& node, const std::string& name, Tab
   if (node.is_object()) {
     if (!name.empty() && (node.size() > kFewNumbers || std::ranges::any_of(node, deep))) return;
     for (const auto& [key, child] : node.items())
-      add_leaves(child, name.empty() ? key : name + "." + key, table);
+      add_leaves(child, name.empty() ? key : fmt::format("{}.{}", name, key), table);
   } else if (node.is_number_float()) {
     table.rows.push_back({name, format_number(node.get<double>(), 5)});
   } else if (node.is_string()) {
@@ -141,7 +143,7 @@ std::vector<std::string> not_identifiable(const Result& result) {
 bool is_data_health(const Section& section) { return section.title == kHealth; }
 
 std::string verdict_of(const Result& result) {
-  const std::string text = result.verdict.empty() ? identified(result) : result.verdict;
+  std::string text = result.verdict.empty() ? identified(result) : result.verdict;
   const std::vector<Findings> findings = findings_by_kind(result);
   if (findings.empty() || text.empty()) return text;
   std::vector<std::string> kinds;
