@@ -13,6 +13,8 @@ namespace {
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
 // Fall of the cost that is worth a step without exact slopes.
 constexpr double kWorthAStep = 0.01;
+// Fall of the cost that steps with exact slopes may have to themselves.
+constexpr double kAsGoodAsThere = 1.0;
 // Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
 constexpr double kNearly = 0.3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
@@ -22,6 +24,10 @@ constexpr int kFirstSteps = 4;
 constexpr double kFar = 1e4;
 constexpr double kCalm = 10.0;
 constexpr double kHeldChunk = 0.2, kSureChunk = 0.1;  // lengths of the first chunks, s
+// Records longer than this, s, are begun on so much of them, in stretches of so many seconds: rounds of noise
+// are most of a fit, and few are left once it is nearly known.
+constexpr double kLong = 30.0, kExcerpt = 15.0, kStretch = 4.0;
+constexpr double kLeastShare = 0.1, kMostShare = 0.25;
 constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise bring that down again
 
 using Eigen::MatrixXd;
@@ -79,89 +85,148 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
   return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
 }
 
+// One fit on its way: shared unknowns, noise and chunks over a record or an excerpt of it.
+class Fitting {
+ public:
+  Fitting(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options)
+      : record_(record), theta_(theta), options_(options), u_(VectorXd::Zero(theta.size())) {}
+
+  /// From what was measured and stated.
+  void begin() {
+    chunk_ = options_.chunk_seconds > 0 ? options_.chunk_seconds : first_chunk(record_);
+    start();
+    if (options_.chunk_seconds <= 0 && !(square_of(*smoother_) < kFar)) {
+      chunk_ = std::max(kSureChunk, 4 * record_.interval);
+      start();
+    }
+    if (options_.estimate_noise) calm(*smoother_);
+    TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
+    if (options_.estimate_noise) first.max_steps = kFirstSteps;
+    smoother_->set_gentle(true);
+    trust_region(first);
+  }
+
+  /// From where the fit of an excerpt ended; false where that is far from anything here.
+  bool go_on_from(const Fitting& excerpt) {
+    u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
+    restart(excerpt.smoother_->noise());
+    if (!(square_of(*smoother_) < kFar)) return false;
+    const NewtonStep step = newton_step(*smoother_, u_);
+    if (step.fall < kNear * theta_.size() && theta_.possible(u_ + step.du)) u_ += step.du;
+    return true;
+  }
+
+  /// Noise and unknowns in turn. Chunks may change in the first two rounds.
+  void find_noise(const std::function<void(double)>& tell) {
+    for (int round = 0; round < options_.noise_rounds; ++round) {
+      smoother_->linearize(u_, true);
+      smoother_->set_gentle(false);
+      smoother_->accept();
+      if (options_.robust) smoother_->set_huber(kHuber);
+      const NoiseModel before = smoother_->noise();
+      const double change = update_noise(*smoother_, 6);
+      const double wanted =
+          options_.chunk_seconds > 0 ? chunk_ : chunk_for(record_, smoother_->noise(), options_.fine_gusts);
+      if (round < 2 && (wanted > 1.5 * chunk_ || wanted < chunk_ / 1.5)) {
+        chunk_ = wanted;
+        restart(smoother_->noise());
+      }
+      tell(static_cast<double>(round + 1) / options_.noise_rounds);
+      bool turned = false;
+      if (options_.choose_axes && !axes_chosen_ && !axes_asked_ && change < kNearly) {
+        axes_asked_ = true, axes_chosen_ = choose_axes(*smoother_, u_);
+        turned = smoother_->noise().axes != GustAxes::world;
+      }
+      const NewtonStep step = newton_step(*smoother_, u_);
+      promised_ = step.fall;
+      smoother_->accept();
+      const bool done = !turned && (change < 0.03 || (round >= 5 && change < kNearly));
+      if (done && !(step.fall < kAsGoodAsThere)) break;
+      if (step.fall < kNear && theta_.possible(u_ + step.du)) {
+        u_ += step.du;
+      } else if (finite(smoother_->linearize(u_))) {
+        trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
+      } else {  // a sensor that seems to have no noise at all
+        restart(before);
+        break;
+      }
+      if (done) break;
+    }
+  }
+
+  FlightFit finish() {
+    smoother_->set_gentle(false);
+    const bool near = options_.exact && promised_ < kAsGoodAsThere;
+    smoother_->set_exact(near);
+    // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
+    if (!finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
+    if (!near) {
+      const SharedMinimum at =
+          minimise_shared(*smoother_, u_, std::max(worth_a_step(*smoother_, options_), kWorthAStep));
+      u_ = at.u, steps_ += at.steps;
+    }
+    FlightFit fit;
+    fit.u = u_, fit.steps = steps_;
+    fit.noise = smoother_->noise();
+    fit.chunk_seconds = chunk_;
+    fit.smoother = smoother_;
+    fit.converged = true;
+    finish_fit(fit, theta_, options_);
+    return fit;
+  }
+
+ private:
+  void start() {
+    smoother_ = std::make_shared<FlightSmoother>(
+        record_, theta_, options_.noise.value_or(initial_noise(record_)), chunk_, options_.threads);
+    // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
+    smoother_->set_huber(options_.estimate_noise || !options_.robust ? 1e9 : kHuber);
+    if (options_.near && options_.near->chunks().size() == smoother_->chunks().size())
+      smoother_->set_states(options_.near->states());
+    smoother_->settle(u_, 1);
+  }
+  void restart(const NoiseModel& noise) {
+    smoother_ = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
+    smoother_->set_huber(options_.robust ? kHuber : 1e9);
+    smoother_->settle(u_, 2);
+  }
+  void trust_region(const TrustRegion& region) {
+    const SharedMinimum at = by_trust_region(*smoother_, u_, region);
+    u_ = at.u, steps_ += at.steps;
+  }
+
+  const FlightRecord& record_;
+  const Theta& theta_;
+  const FlightFitOptions& options_;
+  VectorXd u_;
+  std::shared_ptr<FlightSmoother> smoother_;
+  double chunk_ = 0.0, promised_ = kNaN;  // fall of the cost, when the noise was last looked at
+  int steps_ = 0;
+  bool axes_asked_ = false, axes_chosen_ = false;  // here; beyond doubt
+};
+
 }  // namespace
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
-  FlightFit fit;
-  const auto tell = [&](double share) {
-    if (options.progress) options.progress(share);
+  const auto tell = [&](double from, double to) {
+    return [&options, from, to](double share) {
+      if (options.progress) options.progress(from + share * (to - from));
+    };
   };
-  VectorXd u = VectorXd::Zero(theta.size());
-  double chunk = options.chunk_seconds > 0 ? options.chunk_seconds : first_chunk(record);
-  const auto begin = [&] {
-    auto begun = std::make_shared<FlightSmoother>(
-        record, theta, options.noise.value_or(initial_noise(record)), chunk, options.threads);
-    // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
-    begun->set_huber(options.estimate_noise || !options.robust ? 1e9 : kHuber);
-    if (options.near && options.near->chunks().size() == begun->chunks().size())
-      begun->set_states(options.near->states());
-    begun->settle(u, 1);
-    return begun;
-  };
-  std::shared_ptr<FlightSmoother> smoother = begin();
-  if (options.chunk_seconds <= 0 && !(square_of(*smoother) < kFar)) {
-    chunk = std::max(kSureChunk, 4 * record.interval);
-    smoother = begin();
+  Fitting fitting(record, theta, options);
+  bool begun = false;
+  if (options.estimate_noise && record.duration > kLong) {
+    const double share = std::clamp(kExcerpt / record.duration, kLeastShare, kMostShare);
+    const FlightRecord excerpt = excerpt_of(record, share, kStretch);
+    Fitting first(excerpt, theta, options);
+    first.begin();
+    first.find_noise(tell(0.1, 0.4));
+    begun = fitting.go_on_from(first);
   }
-  if (options.estimate_noise) calm(*smoother);
-  const auto restart = [&] {
-    smoother = std::make_shared<FlightSmoother>(record, theta, smoother->noise(), chunk, options.threads);
-    smoother->set_huber(options.robust ? kHuber : 1e9);
-    smoother->settle(u, 2);
-  };
-  const auto trust_region = [&](const TrustRegion& region) {
-    const SharedMinimum at = by_trust_region(*smoother, u, region);
-    u = at.u, fit.steps += at.steps;
-  };
-  TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
-  if (options.estimate_noise) first.max_steps = kFirstSteps;
-  smoother->set_gentle(true);
-  trust_region(first);
-  if (options.estimate_noise) smoother->linearize(u, true);
-  smoother->set_gentle(false);
-  tell(0.3);
-  bool axes_chosen = !options.choose_axes;
-  for (int round = 0; options.estimate_noise && round < options.noise_rounds; ++round) {
-    if (round > 0) smoother->linearize(u, true);
-    smoother->accept();
-    if (options.robust) smoother->set_huber(kHuber);
-    const NoiseModel before = smoother->noise();
-    const double change = update_noise(*smoother, 6);
-    const double wanted =
-        options.chunk_seconds > 0 ? chunk : chunk_for(record, smoother->noise(), options.fine_gusts);
-    if (round < 2 && (wanted > 1.5 * chunk || wanted < chunk / 1.5)) {
-      chunk = wanted;
-      restart();
-    }
-    tell(0.3 + 0.5 * (round + 1) / options.noise_rounds);
-    const bool first_calm = !axes_chosen && change < kNearly;
-    if (first_calm) axes_chosen = true, choose_axes(*smoother, u);
-    const bool changed = first_calm && smoother->noise().axes != GustAxes::world;
-    if (!changed && (change < 0.03 || (round >= 5 && change < kNearly))) break;
-    smoother->accept();
-    const NewtonStep step = newton_step(*smoother, u);
-    if (step.fall < kNear && theta.possible(u + step.du)) {
-      u += step.du;
-    } else if (finite(smoother->linearize(u))) {
-      trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
-    } else {  // a sensor that seems to have no noise at all
-      smoother->set_noise(before);
-      restart();
-      break;
-    }
-  }
-  // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
-  if (!finite(linearize_at(*smoother, u))) restart();
-  const SharedMinimum near =
-      minimise_shared(*smoother, u, std::max(worth_a_step(*smoother, options), kWorthAStep));
-  u = near.u, fit.steps += near.steps;
-  fit.u = u;
-  fit.noise = smoother->noise();
-  fit.chunk_seconds = chunk;
-  fit.smoother = smoother;
-  fit.converged = true;
-  finish_fit(fit, theta, options);
-  tell(1.0);
+  if (!begun) fitting.begin();
+  if (options.estimate_noise) fitting.find_noise(tell(0.4, 0.8));
+  FlightFit fit = fitting.finish();
+  tell(0, 1)(1.0);
   return fit;
 }
 

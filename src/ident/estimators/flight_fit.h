@@ -64,9 +64,10 @@ NoiseModel initial_noise(const FlightRecord& record);
 /// for the sensors; returns the largest relative change of a standard deviation.
 double update_noise(FlightSmoother& smoother, int rounds);
 
-/// Gives gusts the axes, those of the world or those of the body, that make the flight more likely. The
-/// smoother has those of the world, and noise that is about right.
-void choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u);
+/// Gives gusts the axes, those of the world or those of the body, that make the flight more likely; the
+/// world's where it does not say. The smoother has those of the world, and noise that is about right. Whether
+/// it is beyond doubt, or no matter.
+bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u);
 
 /// Chunks short enough for that noise, s; `fine`: see FlightFitOptions.
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine = true);

@@ -66,12 +66,12 @@ double update_noise(FlightSmoother& smoother, int rounds) {
   return std::max(0.3 * change, white);
 }
 
-void choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
+bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
   const StateLayout& layout = smoother.record().layout;
   double strongest = 0;
   for (const AirNoise& air : smoother.noise().air)
     for (const ColouredNoise& axis : air.v_dot) strongest = std::max(strongest, axis.sigma);
-  if (layout.attitude < 0 || layout.v_dot < 0 || strongest < kNoGust) return;
+  if (layout.attitude < 0 || layout.v_dot < 0 || strongest < kNoGust) return true;
   const auto surprise_of = [&](const NoiseModel& noise) {
     smoother.set_noise(noise);
     smoother.settle(u, 1);
@@ -85,10 +85,12 @@ void choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
   const double in_world = surprise_of(world);
   NoiseModel body = world;
   body.axes = GustAxes::body;
-  if (surprise_of(body) < in_world - kBeyondDoubt) return;
+  const double in_body = surprise_of(body);
+  if (in_body < in_world - kBeyondDoubt) return true;
   smoother.set_noise(world);
   smoother.set_states(states);
   smoother.settle(u, 1);
+  return in_world < in_body - kBeyondDoubt;
 }
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {

@@ -239,44 +239,6 @@ void require_turning(const Signals& logged) {
         "turned, and so not what its rotors did; log one of them");
 }
 
-FlightRecord without_arcs(const FlightRecord& record) {
-  return {record.vehicle,    {},
-          record.logs,       record.signals,
-          record.layout,     record.sigma,
-          record.interval,   record.duration,
-          record.motor_rate, record.warnings};
-}
-
-FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
-  FlightArc out;
-  out.log = log;
-  const auto range = [&](const auto& v, std::size_t width) {
-    return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
-                                     v.begin() + static_cast<std::ptrdiff_t>(end * width));
-  };
-  out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.start = range(start, 1);
-  out.inputs = inputs;
-  return out;
-}
-
-double training_end(const FlightArc& arc, double training_share) {
-  return arc.t.front() + training_share * (arc.t.back() - arc.t.front());
-}
-
-FlightRecord held_out_of(const FlightRecord& record, double training_share) {
-  FlightRecord held_out = without_arcs(record);
-  held_out.duration = 0;
-  for (const FlightArc& arc : record.arcs) {
-    const double border = training_end(arc, training_share);
-    const auto cut =
-        static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), border) - arc.t.begin());
-    if (arc.rows() - cut < 8) continue;
-    held_out.arcs.push_back(arc.piece(cut, arc.rows()));
-    held_out.duration += arc.t.back() - held_out.arcs.back().t.front();
-  }
-  return held_out;
-}
-
 std::string channel_name(int channel) {
   static constexpr std::array names = {"p",          "q",  "r",  "ax", "ay", "az", "attitude x", "attitude y",
                                        "attitude z", "vx", "vy", "vz", "x",  "y",  "z"};

@@ -211,7 +211,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   }
   const Theta& theta = *free;
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
-  result.parameters = flight_parameters(theta, fit, "flightlog");
+  FlightFit body = fit;
+  body.smoother.reset(), body.u = nearest_body(theta, fit);
+  result.parameters = flight_parameters(theta, body, "flightlog");
   warn_about(result, theta, fit);
   warn_of_inertia(result, theta, fit);
   result.fit["seconds"] = record.duration;
@@ -248,6 +250,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     const FlightRecord held_out = held_out_of(record, kTrainingShare);
     FlightFit view = fit;
     view.u = fit_of_training(fit, record, theta, kTrainingShare);
+    view.u = nearest_body(theta, view);
     VectorXd before = view.u;
     before.head(n).setZero();                     // the constants as stated, with the gyro biases of the fit
     fit.smoother.reset(), view.smoother.reset();  // the largest thing in memory

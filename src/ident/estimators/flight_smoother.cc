@@ -66,6 +66,7 @@ void FlightSmoother::set_noise(const NoiseModel& noise) {
   const bool turn = noise.axes != noise_.axes;
   if (turn || noise.sigma != noise_.sigma) stands_ = false;
   noise_ = noise;
+  eliminated_ = false;
   if (!turn) return;
   set_axes();
   accepted() = {};  // steps along other axes
@@ -85,6 +86,7 @@ void FlightSmoother::set_axes() {
 
 void FlightSmoother::unlink() {
   for (ChunkPlace& place : places_) place.linked = false;
+  eliminated_ = false;
 }
 
 void FlightSmoother::in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const {
@@ -228,7 +230,7 @@ const ReducedSystem& FlightSmoother::linearize(const VectorXd& u, bool leverage)
 }
 
 const ReducedSystem& FlightSmoother::relinearize() {
-  eliminate();
+  if (!eliminated_) eliminate();
   return reduced_;
 }
 

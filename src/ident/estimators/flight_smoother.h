@@ -102,7 +102,9 @@ class FlightSmoother {
   void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const;
   /// Further shared unknowns, after theta in the reduced system: accelerations from outside that follow given
   /// profiles, [chunk](6 x count) over (w_dot_B, v_dot_W). None with an empty list.
-  void set_profiles(std::vector<Eigen::MatrixXd> profiles) { profiles_ = std::move(profiles); }
+  void set_profiles(std::vector<Eigen::MatrixXd> profiles) {
+    profiles_ = std::move(profiles), eliminated_ = false;
+  }
   /// Cuts all links: every chunk starts afresh.
   void unlink();
 
@@ -182,6 +184,7 @@ class FlightSmoother {
   int threads_;
   double huber_ = 4.0;
   bool stands_ = false, exact_ = false, gentle_ = false;
+  bool eliminated_ = false;  // the last linearisation, under the present noise, shared unknowns free
   std::vector<ChunkPlace> places_;
   std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation

@@ -149,6 +149,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
 }
 
 void FlightSmoother::eliminate(const VectorXd* held) {
+  eliminated_ = held == nullptr;
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
   const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;

@@ -22,6 +22,8 @@ constexpr int kHeld = 4;
 constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
 // A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
 constexpr double kNothing = 1e-11;
+// Share of the innovations that the data determine below which there might as well be none.
+constexpr double kHardlyTold = 0.01;
 
 // Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown.
 struct ProcessMoments {
@@ -42,11 +44,12 @@ struct ProcessMoments {
       return (y - 2 * share * c + share * share * x) / (1 - share * share);
     };
     const double variance = noise.sigma * noise.sigma;
-    const double determined = std::max(count - innovations(P_now, P_next, P_cross) / variance, 0.01 * count);
+    const double told = count - innovations(P_now, P_next, P_cross) / variance;
+    const double determined = std::max(told, kHardlyTold * count);
     const double ratio = std::clamp(innovations(now, next, cross) / determined / variance, 0.02, 50.0);
     const double carried = std::clamp((cross + P_cross) / (0.5 * (now + P_now + next + P_next)), 0.01, 0.998);
     const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
-    const bool nothing = variance < kNothing;
+    const bool nothing = variance < kNothing || (ratio < 1 && told < kHardlyTold * count);
     noise.sigma *= std::sqrt(ratio);
     noise.tau =
         std::clamp(noise.tau * std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0), 0.3 * h, kSlowest);

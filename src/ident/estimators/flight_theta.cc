@@ -121,14 +121,18 @@ PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
   return terms;
 }
 
-bool Theta::possible(const Eigen::VectorXd& u) const {
+Eigen::Matrix3d Theta::inertia(const Eigen::VectorXd& u) const {
   const std::vector<double> p = this->p(u);
   const auto at = [&](int i) { return p[static_cast<std::size_t>(i)]; };
   MassSeam<double> mass{at(param::m), Mat3<double>::Zero(), Vec3<double>::Zero(), at(param::Jp)};
   mass.J << at(param::Jxx), at(param::Jxy), at(param::Jxz), at(param::Jxy), at(param::Jyy), at(param::Jyz),
       at(param::Jxz), at(param::Jyz), at(param::Jzz);
   EffectSet<double>(p, active_effects(p)).apply(mass);
-  const Mat3<double>& J = mass.J;
+  return mass.J;
+}
+
+bool Theta::possible(const Eigen::VectorXd& u) const {
+  const Eigen::Matrix3d J = inertia(u);
   const double minor = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
   return J(0, 0) > 0 && minor > 0 &&
          dot(Vec3<double>(J.row(0)), cross(Vec3<double>(J.row(1)), Vec3<double>(J.row(2)))) > 0;

@@ -56,7 +56,9 @@ class Theta {
   std::array<double, 3> gyro_bias(const Eigen::VectorXd& u, int log) const;
   std::vector<Seed> seeds(const Eigen::VectorXd& u, int log) const;
   PriorTerms prior(const Eigen::VectorXd& u) const;
-  /// Whether the inertia at u, products and effects included, is positive definite. With the moments in
+  /// The inertia at u, products and effects included, kg m^2.
+  Eigen::Matrix3d inertia(const Eigen::VectorXd& u) const;
+  /// Whether that is positive definite. With the moments in
   /// logarithms it always is as long as there are no products.
   bool possible(const Eigen::VectorXd& u) const;
 

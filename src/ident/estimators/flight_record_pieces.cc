@@ -1,0 +1,69 @@
+// Parts of a record: held-out flight, and excerpts.
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/flight_record.h"
+
+namespace ident {
+
+FlightRecord without_arcs(const FlightRecord& record) {
+  return {record.vehicle,    {},
+          record.logs,       record.signals,
+          record.layout,     record.sigma,
+          record.interval,   record.duration,
+          record.motor_rate, record.warnings};
+}
+
+FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
+  FlightArc out;
+  out.log = log;
+  const auto range = [&](const auto& v, std::size_t width) {
+    return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
+                                     v.begin() + static_cast<std::ptrdiff_t>(end * width));
+  };
+  out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.start = range(start, 1);
+  out.inputs = inputs;
+  return out;
+}
+
+double training_end(const FlightArc& arc, double training_share) {
+  return arc.t.front() + training_share * (arc.t.back() - arc.t.front());
+}
+
+FlightRecord held_out_of(const FlightRecord& record, double training_share) {
+  FlightRecord held_out = without_arcs(record);
+  held_out.duration = 0;
+  for (const FlightArc& arc : record.arcs) {
+    const double border = training_end(arc, training_share);
+    const auto cut =
+        static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), border) - arc.t.begin());
+    if (arc.rows() - cut < 8) continue;
+    held_out.arcs.push_back(arc.piece(cut, arc.rows()));
+    held_out.duration += arc.t.back() - held_out.arcs.back().t.front();
+  }
+  return held_out;
+}
+
+FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds) {
+  FlightRecord excerpt = without_arcs(record);
+  excerpt.duration = 0;
+  for (const FlightArc& arc : record.arcs) {
+    const double first = arc.t.front(), length = arc.t.back() - first;
+    const int stretches = std::max(1, static_cast<int>(std::lround(share * length / seconds)));
+    const double every = length / stretches;
+    const auto row_at = [&](double t) {
+      return static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), t) - arc.t.begin());
+    };
+    for (int i = 0; i < stretches; ++i) {
+      const double middle = first + (i + 0.5) * every;
+      const std::size_t begin = row_at(middle - 0.5 * share * every);
+      const std::size_t end = row_at(middle + 0.5 * share * every);
+      if (end - begin < 8) continue;
+      excerpt.arcs.push_back(arc.piece(begin, end));
+      excerpt.duration += arc.t[end - 1] - arc.t[begin];
+    }
+  }
+  return excerpt;
+}
+
+}  // namespace ident
