@@ -70,6 +70,17 @@ TEST(LogChecks, ACommandThatNeverChangesBesideASpeedThatDoesIsNamed) {
   ASSERT_EQ(still.warnings.size(), 1u);
   EXPECT_EQ(still.warnings[0].code, "constant_command");
   EXPECT_NE(still.warnings[0].message.find("rotor 3"), std::string::npos) << still.warnings[0].message;
+  EXPECT_FALSE(still.has_commands()) << "the speeds serve as input";
+}
+
+TEST(LogChecks, OneComponentThatNeverChangesIsNotMeasured) {
+  FlightLog log = hover();
+  std::ranges::fill(log.w_B[0], 0.1);
+  drop_constant(log, log.w_B, "p q r");
+  EXPECT_EQ(missing(log.w_B[0]), log.rows());
+  EXPECT_EQ(missing(log.w_B[1]), 0u);
+  ASSERT_EQ(log.warnings.size(), 1u);
+  EXPECT_EQ(log.warnings[0].code, "constant_signal");
 }
 
 // By differences alone a sensor that counts in steps has no noise, and then weighs more than all others.

@@ -53,7 +53,8 @@ bool needs_command_offset(const Vehicle& vehicle, const FlightRecord& record, co
     spread += std::pow(direction.dot(block.score + block.information * step), 2);
   const double stretch = std::max(spread / direction.dot(F * direction), 1.0);
   constexpr double kBeyondDoubt = 25.0;  // fall of the cost: five standard deviations
-  return g.dot(solved(g)) > kBeyondDoubt * stretch;
+  constexpr double kMatters = 1e-3;      // of the unit step, a tenth of the speed at hover: less is rounding
+  return g.dot(solved(g)) > kBeyondDoubt * stretch && std::abs(step[wider.constants_count() - 1]) > kMatters;
 }
 
 }  // namespace ident

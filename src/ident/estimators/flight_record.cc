@@ -11,6 +11,8 @@ namespace ident {
 namespace {
 
 constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
+// With rows the commands are missing: so many steps without one, at least so many seconds, end an arc.
+constexpr double kMissedRows = 5.0, kShortestGap = 0.03;
 constexpr double kHistory = 0.05;  ///< s of commands beyond the stated dead time that a flight starts with
 
 Signals signals_of(std::span<const FlightLog> logs) {
@@ -92,16 +94,19 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
 std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, std::vector<bool> fly,
                                                         double gap, double history) {
   double known_from = log.t.front() + history;
+  const auto breaks_before = [&](std::size_t i) {
+    return i > 0 &&
+           (log.t[i] - log.t[i - 1] > gap || std::ranges::find(log.breaks, log.t[i - 1]) != log.breaks.end());
+  };
   for (std::size_t i = 0; i < log.rows() && history > 0; ++i) {
-    if (i > 0 && log.t[i] - log.t[i - 1] > gap) known_from = log.t[i] + history;
+    if (breaks_before(i)) known_from = log.t[i] + history;
     if (log.t[i] < known_from) fly[i] = false;
   }
   std::vector<std::pair<std::size_t, std::size_t>> out;
   std::size_t begin = 0;
   bool open = false;
   for (std::size_t i = 0; i < log.rows(); ++i) {
-    const bool breaks = i > 0 && log.t[i] - log.t[i - 1] > gap;
-    if (open && (breaks || !fly[i])) {
+    if (open && (breaks_before(i) || !fly[i])) {
       out.emplace_back(begin, i);
       open = false;
     }
@@ -112,6 +117,12 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, st
     return log.t[p.second - 1] - log.t[p.first] < 0.3 || p.second - p.first < 8;
   });
   return out;
+}
+
+double usual_step(const FlightLog& log) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < log.rows(); ++i) steps.push_back(log.t[i] - log.t[i - 1]);
+  return median(steps);
 }
 
 // What sag is counted from where the vehicle file names no voltage: one for all logs, which share km.
@@ -211,7 +222,10 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");
     const std::vector<bool> fly = in_flight(log, record.warnings);
     const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
-    for (const auto& [begin, end] : pieces(log, fly, options.longest_gap, history))
+    const double gap = log.has_commands()
+                           ? std::clamp(kMissedRows * usual_step(log), kShortestGap, options.longest_gap)
+                           : options.longest_gap;
+    for (const auto& [begin, end] : pieces(log, fly, gap, history))
       if (FlightArc arc = make_arc(log, static_cast<int>(n), begin, end, vehicle, v0); is_driven(arc))
         record.arcs.push_back(std::move(arc));
   }

@@ -11,7 +11,9 @@
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_command_offset.h"
 #include "ident/estimators/flight_entry.h"
+#include "ident/estimators/flight_hover.h"
 #include "ident/estimators/flight_inertia.h"
+#include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
@@ -150,6 +152,15 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
               format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull));
     }
   }
+  for (Parameter& p : result.parameters)
+    if (p.name == "dead_time" && p.value + 2 * p.std < 0) {
+      p.identifiable = false;
+      p.note = "negative: no motor turns before its command";
+      result.warn(
+          "negative_dead_time",
+          "rotors seem to follow commands before these come: the clocks of commands and sensors differ, or "
+          "the model lacks something (try ident gap)");
+    }
   std::string unknown;
   for (const Parameter& p : result.parameters)
     if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;
@@ -186,7 +197,7 @@ Section data_health(const FlightRecord& record, std::span<const FlightLog> logs,
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   Result result;
   result.command = "flightlog";
-  const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  auto [p, record, tested] = enter_flight(vehicle, logs, result);
   if (only_trim(record.signals)) {
     refine_trim(result, record, p, options.free);
     result.sections.push_back(data_health(record, logs, initial_noise(record)));
@@ -196,11 +207,15 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   require_turning(record.signals);
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
   if (!record.signals.commands) leave_out_motors(constants);
+  const std::vector<FreeConstant> known = constants;
+  std::vector<std::string> held;
+  if (std::ranges::find(tested, "hover_only", &Warning::code) != tested.end())
+    held = hold_for_hover(constants);
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
   auto free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
   FlightFit fit = fit_flight(record, *free, fit_options);
-  if (needs_command_offset(vehicle, record, *free, fit)) {
+  if (held.empty() && needs_command_offset(vehicle, record, *free, fit)) {
     result.warn(
         "command_offset",
         "the rotors' speed is not proportional to the command: Omega_0, their speed at command 0 as the "
@@ -214,6 +229,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);
   result.parameters = flight_parameters(theta, body, "flightlog");
+  as_before_flight(result.parameters, known, held);
+  for (const Warning& w : logs_agree(record, logs, theta, fit))
+    result.warnings.push_back(w), tested.push_back(w);
   warn_about(result, theta, fit);
   warn_of_inertia(result, theta, fit);
   result.fit["seconds"] = record.duration;
@@ -256,9 +274,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     fit.smoother.reset(), view.smoother.reset();  // the largest thing in memory
     result.sections.push_back(validation(held_out, theta, before, view, options.shown, result));
   }
-  int known = 0;
-  for (const Parameter& q : result.parameters) known += q.identifiable;
-  result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight.", known,
+  int determined = 0;
+  for (const Parameter& q : result.parameters) determined += q.identifiable;
+  result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight.", determined,
                                result.parameters.size(), record.duration);
   if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;

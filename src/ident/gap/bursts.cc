@@ -10,6 +10,9 @@ namespace {
 constexpr double kBeyond = 6.0;  // standard deviations; the largest of 7000 calm jumps was at 4.2
 constexpr double kSeen = 3.0;    // and as many of what one piece of flight tells of the rate or velocity
 constexpr int kLeast = 30;       // jumps in a log, to know what is steady
+// Where gusts act by a known drag their pushes go with the flight: what is steady is also judged by the jumps
+// within so many seconds to either side.
+constexpr double kNearby = 2.5;
 
 struct Jump {
   double size, seen, t;  // seen: in standard deviations of the sensor over the piece
@@ -33,6 +36,20 @@ std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int
   return out;
 }
 
+double median_size(std::vector<double> sizes) {
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return *middle;
+}
+
+// Deviation of steady jumps about jump i, of those that are in order of time.
+double spread_about(const std::vector<Jump>& jumps, std::size_t i, double overall) {
+  std::vector<double> nearby;
+  for (const Jump& j : jumps)
+    if (std::abs(j.t - jumps[i].t) <= kNearby) nearby.push_back(j.size);
+  return std::max(overall, 1.4826 * median_size(std::move(nearby)));
+}
+
 }  // namespace
 
 std::vector<Burst> bursts(const FlightRecord& record, const FlightFit& fit) {
@@ -41,15 +58,22 @@ std::vector<Burst> bursts(const FlightRecord& record, const FlightFit& fit) {
   for (int axis = 0; axis < 6; ++axis) {
     if (axis < 3 ? record.layout.w_dot < 0 : record.layout.v_dot < 0) continue;
     for (int log = 0; log < record.logs; ++log) {
-      std::vector<Jump> jumps = jumps_of(record, fit, axis, log);
+      const std::vector<Jump> jumps = jumps_of(record, fit, axis, log);
       if (jumps.size() < kLeast) continue;
-      std::ranges::sort(jumps, {}, &Jump::size);
-      const double spread = 1.4826 * jumps[jumps.size() / 2].size;
-      const auto count = std::ranges::count_if(
-          jumps, [&](const Jump& j) { return j.size > kBeyond * spread && j.seen > kSeen; });
-      if (count >= 2)
-        out.push_back({names[static_cast<std::size_t>(axis)], log, static_cast<int>(count),
-                       jumps.back().size / std::max(spread, 1e-300), jumps.back().t});
+      std::vector<double> sizes;
+      for (const Jump& j : jumps) sizes.push_back(j.size);
+      const double overall = 1.4826 * median_size(std::move(sizes));
+      Burst found{names[static_cast<std::size_t>(axis)], log, 0, 0.0, 0.0};
+      for (std::size_t i = 0; i < jumps.size(); ++i) {
+        const Jump& j = jumps[i];
+        if (!(j.size > kBeyond * overall && j.seen > kSeen)) continue;
+        const double spread = spread_about(jumps, i, overall);
+        if (!(j.size > kBeyond * spread)) continue;
+        found.count += 1;
+        if (const double beyond = j.size / std::max(spread, 1e-300); beyond > found.largest)
+          found.largest = beyond, found.t = j.t;
+      }
+      if (found.count >= 2) out.push_back(found);
     }
   }
   std::ranges::sort(out, std::greater<>(), &Burst::largest);

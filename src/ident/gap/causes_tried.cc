@@ -95,15 +95,18 @@ Entries entries_of(const SearchResult& search) {
 
 }  // namespace
 
-Json causes_tried(const SearchResult& search, const std::function<double(const Candidate&)>& closed_alone) {
+Json causes_tried(const SearchResult& search,
+                  const std::function<GapClosed(const Candidate&)>& closed_alone) {
   Json out = Json::array();
   for (const Entry& entry : entries_of(search)) {
     const auto found = std::ranges::find(search.best.adopted, entry.name, &Candidate::name);
     const bool adopted = found != search.best.adopted.end();
+    const GapClosed closed = adopted ? closed_alone(*found) : GapClosed{};
     out.push_back({{"effect", entry.name},
                    {"probability", search.probability_of(entry.name)},
                    {"detection_limit", entry.limits},
-                   {"closed", adopted ? number(closed_alone(*found)) : Json(nullptr)},
+                   {"closed", number(closed.closed)},
+                   {"closed_ci95", {number(closed.ci95[0]), number(closed.ci95[1])}},
                    {"evidence", entry.gain},
                    {"parameters", adopted ? adopted_parameters(search.best, *found) : Json::object()}});
   }

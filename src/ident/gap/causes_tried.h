@@ -7,14 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "ident/estimators/flight_prediction.h"
 #include "ident/gap/search_result.h"
 
 namespace ident {
 
 /// One entry for each cause tried, most probable first (`candidates` of the result). `closed_alone` gives the
-/// share of the gap that an adopted cause closes without the others.
+/// what an adopted cause closes of the gap without the others.
 nlohmann::ordered_json causes_tried(const SearchResult& search,
-                                    const std::function<double(const Candidate&)>& closed_alone);
+                                    const std::function<GapClosed(const Candidate&)>& closed_alone);
 
 /// Effects of the catalogue that were not tried, each with the reason.
 nlohmann::ordered_json causes_not_tried(const SearchResult& search, const Vehicle& vehicle,

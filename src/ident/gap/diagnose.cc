@@ -12,6 +12,8 @@
 #include "ident/core/format_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/estimators/flight_entry.h"
+#include "ident/estimators/flight_hover.h"
+#include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_trim.h"
@@ -103,7 +105,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.schema = "ident.gap/1";
   result.command = "gap";
   require_known(options.exclude);
-  const auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  auto [p, record, tested] = enter_flight(vehicle, logs, result);
   if (only_trim(record.signals)) {
     out.adopted = diagnose_trim(result, record, p, options.exclude);
     if (const std::string wrong = disqualified(tested); !wrong.empty()) {
@@ -119,8 +121,12 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return out;
   }
   require_turning(record.signals);
-  SearchOptions search_options{options.exclude, options.most_causes, options.progress};
-  const SearchResult search = search_causes(record, vehicle, p, search_options);
+  const bool hover = std::ranges::find(tested, "hover_only", &Warning::code) != tested.end();
+  SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, options.progress};
+  const SearchResult search =
+      search_causes(record, hover ? held_for_hover(vehicle) : vehicle, p, search_options);
+  for (const Warning& w : logs_agree(record, logs, *search.base.theta, search.base.fit))
+    result.warnings.push_back(w), tested.push_back(w);
   if (options.progress) options.progress(0.9, "held-out flight");
 
   const ResidualWrench before =
@@ -160,7 +166,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.parameters = flight_parameters(best, search.best.fit, "gap");
   Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   const std::string wrong = disqualified(tested);
-  if (std::ranges::find(tested, "hover_only", &Warning::code) != tested.end() && !verdict.effects.empty()) {
+  if (hover && !verdict.effects.empty()) {
     verdict.status = "unknown";
     verdict.sentence = fmt::format(
         "The nearest is {}, but these logs hold little more than hover, and that tells no cause: fly "
@@ -178,11 +184,11 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   if (std::isfinite(verdict.remaining)) result.extra["verdict"]["remaining"] = verdict.remaining;
   result.extra["where"] = where_json(before);
   const auto closed_alone = [&](const Candidate& cause) {
-    if (search.best.adopted.size() == 1) return gap.closed;
+    if (search.best.adopted.size() == 1) return gap;
     PredictionOptions fewer = windows;  // every other one tells causes apart
     fewer.horizons = {windows.horizons[1]}, fewer.spacing *= 2;
     const auto c = predict_windows(held_out, best, with_only(search.best, u_best, cause), noise, fewer);
-    return gap_closed(same_windows(a[1], c[0]), c[0]).closed;
+    return gap_closed(same_windows(a[1], c[0]), c[0]);
   };
   result.extra["candidates"] = causes_tried(search, closed_alone);
   if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);

@@ -240,7 +240,7 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
     search.steps = search.alone = {{described(cause), best.honest()}};
   }
   const ResidualWrench before = wrench_of(record, trim, base.trim), after = wrench_of(record, trim, left);
-  const Json candidates = causes_tried(search, [](const Candidate&) { return kNaN; });
+  const Json candidates = causes_tried(search, [](const Candidate&) { return GapClosed{}; });
   const Said verdict = judged(search, by_chance(trim, left), limit_of(candidates));
   result.warnings.push_back(without_turning());
   if (!states_rotor_ratios(vehicle))

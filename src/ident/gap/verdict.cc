@@ -46,10 +46,13 @@ std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
   return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
 }
 
-// Where no cause was found: what still says that something is there.
+// Where no cause was found: what still says that something is there. What strikes a vehicle does not only
+// turn it about its yaw axis: that is what gusts do by a drag that the rotors do not share alike.
 Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector<SpectralLine>& lines,
                      const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
+  const auto strike =
+      std::ranges::find_if(jumps, [](const Burst& one) { return one.channel != std::string_view("Mz"); });
   if (rival.total() > kRivalGain)
     out.sentence = fmt::format(
         "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
@@ -60,11 +63,11 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
         "Something swings or vibrates at {} Hz (seen in {}) that no cause of the catalogue explains: a "
         "slung or loose load, a flexible arm, a propeller out of balance.",
         format_number(lines[0].hz, 3), lines[0].channel);
-  else if (!jumps.empty())
+  else if (strike != jumps.end())
     out.sentence = fmt::format(
         "Something strikes this vehicle at moments (seen in {}, most at {} s of log {}): the wash of "
         "another vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
-        jumps[0].channel, format_number(jumps[0].t, 3), jumps[0].log + 1);
+        strike->channel, format_number(strike->t, 3), strike->log + 1);
   else if (const Parameter* p = contradicted(fitted, [](const std::string&) { return false; }))
     out.sentence = fmt::format(
         "The flight contradicts the value of {} known beforehand by {:.0f} standard deviations, and no cause "

@@ -76,12 +76,24 @@ void drop_constant(FlightLog& log, Components sensor, const std::string& name) {
   if (sensor.front().empty()) return;
   if (rows.empty()) return remove(sensor);
   if (rows.size() < kFewRows) return;
-  const bool constant =
-      std::ranges::all_of(rows, [&](std::size_t i) { return same(sensor, i, rows.front()); });
-  if (!constant) return;
-  remove(sensor);
-  log.warnings.push_back(
-      {"constant_signal", fmt::format("{}: {}: never changes; taken as not measured", log.file, name)});
+  const auto constant = [&](std::span<const std::vector<double>> part) {
+    return std::ranges::all_of(rows, [&](std::size_t i) { return same(part, i, rows.front()); });
+  };
+  if (constant(sensor)) {
+    remove(sensor);
+    log.warnings.push_back(
+        {"constant_signal", fmt::format("{}: {}: never changes; taken as not measured", log.file, name)});
+    return;
+  }
+  if (sensor.size() != 3) return;  // a quaternion without one of its four is none
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::isnan(sensor[k][rows.front()]) || !constant(sensor.subspan(k, 1))) continue;
+    for (double& v : sensor[k]) v = kNaN;
+    log.warnings.push_back(
+        {"constant_signal",
+         fmt::format("{}: {}: the {} of them never changes, the others do; it is taken as not measured",
+                     log.file, name, std::array{"first", "second", "third"}[k])});
+  }
 }
 
 void drop_held(FlightLog& log, Components sensor, const std::string& name) {
@@ -206,13 +218,20 @@ void check_commands(FlightLog& log) {
     if (!moves(log.delta[n]) && moves(log.Omega[n])) dead.push_back(std::to_string(n + 1));
   }
   if (dead.empty()) return;
+  const bool speeds =
+      log.Omega.size() == log.delta.size() && std::ranges::all_of(log.Omega, [&](const auto& c) {
+        return rows_of(std::span(&c, 1)).size() > log.rows() / 2;
+      });
   log.warnings.push_back(
       {"constant_command",
        fmt::format(
-           "{}: the command of rotor {} never changes, and its speed does: is the column the right one? "
-           "Nothing that depends on commands can be trusted; without the command columns the speeds "
-           "serve as input",
-           log.file, fmt::join(dead, ", "))});
+           "{}: the command of rotor {} never changes, and its speed does: is the column the right "
+           "one? {}",
+           log.file, fmt::join(dead, ", "),
+           speeds
+               ? "The commands are left out, the speeds serve as input; of the motors this log says nothing"
+               : "Nothing that depends on commands can be trusted")});
+  if (speeds) log.delta.clear();
 }
 
 void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {

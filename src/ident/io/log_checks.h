@@ -12,7 +12,8 @@ namespace ident {
 /// Components of one sensor.
 using Components = std::span<std::vector<double>>;
 
-/// Removes a sensor whose components never change (warning `constant_signal`) or are all empty.
+/// Removes a sensor whose components never change (warning `constant_signal`) or are all empty; of three, one
+/// that never changes while another does counts as not sampled.
 void drop_constant(FlightLog& log, Components sensor, const std::string& name);
 
 /// Makes NaN what a log repeats between two samples of a slower sensor (warning `held_samples`).
@@ -26,7 +27,8 @@ void drop_frozen(FlightLog& log, Components sensor, const std::string& name);
 /// not sampled (`rotor_speed_dropouts`), and none at all where one of them never changes (`constant_signal`).
 void check_rotor_speeds(FlightLog& log, Components Omega);
 
-/// Warns of a command that never changes beside the speed of its rotor that does (`constant_command`).
+/// Warns of a command that never changes beside the speed of its rotor that does (`constant_command`); where
+/// the speeds of all rotors are known in most rows, they serve as input in place of the commands.
 void check_commands(FlightLog& log);
 
 /// A sensor under the name by which people know it.

@@ -36,12 +36,14 @@ void merge_repeated(NumberTable& table, const std::vector<std::size_t>& keep,
   }
 }
 
-void put_time_in_order(NumberTable& table) {
+// Gives the times after which the clock was set back.
+std::vector<double> put_time_in_order(NumberTable& table) {
   const TimeOrder order = time_order(table.file, *table.find("t"), table.line);
   for (const Warning& warning : time_warnings(table.file, order)) table.warnings.push_back(warning);
   std::vector<std::size_t> rows;
   merge_repeated(table, order.keep, rows);
   if (rows.size() < table.rows()) keep_rows(table, rows);
+  return order.breaks;
 }
 
 class Builder {
@@ -241,8 +243,10 @@ FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const
   for (const LogSignal& s : log_signals(kMostRotors)) schema.signals.push_back(s.signal);
   drop_empty_columns(table, schema);
   expect_plausible(table, schema, csv.header_line());
-  put_time_in_order(table);
-  return Builder(std::move(table), vehicle, map, columns).run();
+  const std::vector<double> breaks = put_time_in_order(table);
+  FlightLog log = Builder(std::move(table), vehicle, map, columns).run();
+  log.breaks = breaks;
+  return log;
 }
 
 }  // namespace ident

@@ -105,6 +105,8 @@ void expect_plausible(const NumberTable& table, const TableSchema& schema, long 
 TimeOrder time_order(const std::string& path, const std::vector<double>& t, const std::vector<long>& line) {
   TimeOrder order;
   double last = -std::numeric_limits<double>::infinity();
+  constexpr int kSetBack = 5;  // rows; fewer came late
+  int late = 0;
   const auto count = [](long& number, long& first, long where) {
     if (number++ == 0) first = where;
   };
@@ -113,7 +115,10 @@ TimeOrder time_order(const std::string& path, const std::vector<double>& t, cons
       count(order.missing, order.first_missing, line[i]);
     } else if (t[i] < last) {
       count(order.backward, order.first_backward, line[i]);
+      ++late;
     } else {
+      if (late >= kSetBack) order.breaks.push_back(last);
+      late = 0;
       if (t[i] == last) count(order.repeated, order.first_repeated, line[i]);
       order.keep.push_back(i);
       last = t[i];

@@ -25,6 +25,8 @@ struct TimeOrder {
   std::vector<std::size_t> keep;
   long backward = 0, repeated = 0, missing = 0;
   long first_backward = 0, first_repeated = 0, first_missing = 0;  ///< lines
+  std::vector<double>
+      breaks;  ///< times after which the clock was set back: what follows does not go on from there
 };
 
 /// Rows whose time is known and not before an earlier one. Throws InputError where too many go back.

@@ -1,0 +1,24 @@
+// What a flight that hardly leaves hover cannot tell is held at what was known.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ident/core/result.h"
+#include "ident/estimators/flight_theta.h"
+
+namespace ident {
+
+/// Holds the constants of motors and inertia, which no hover tells: free, they would be fitted to the noise
+/// of one initial transient. Gives their names.
+std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants);
+
+/// The vehicle with the same constants known as well as they are held.
+Vehicle held_for_hover(const Vehicle& vehicle);
+
+/// Says of the constants held what `constants`, as they were before, say of them: nothing comes from flight.
+void as_before_flight(std::vector<Parameter>& parameters, const std::vector<FreeConstant>& constants,
+                      std::span<const std::string> held);
+
+}  // namespace ident

@@ -1,0 +1,68 @@
+// Every log is left out in turn; a step far beyond both the deviations and any scatter of real flights speaks
+// of another vehicle.
+#include "ident/estimators/flight_logs_agree.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string>
+
+#include "ident/estimators/flight_fit_steps.h"
+
+namespace ident {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kBeyondChance = 10.0;   // standard deviations
+constexpr double kAnotherVehicle = 0.2;  // of the value: flights of one vehicle scatter by less
+constexpr std::size_t kFew = 2;          // constants; a worn battery moves one
+
+struct WithoutLog {
+  std::vector<std::string> moved;  // constants that would be another vehicle's
+  double from_stated = 0.0;        // cost of the priors there
+};
+
+WithoutLog without(const FlightRecord& record, const Theta& theta, const FlightFit& fit, int log) {
+  const PriorTerms prior = theta.prior(fit.u);
+  MatrixXd H = prior_information(theta, fit.u);
+  VectorXd g = prior.slope.cwiseProduct(prior.residual);
+  for (const ScoreBlock& block : fit.blocks)
+    if (record.arcs[static_cast<std::size_t>(block.arc)].log != log) H += block.information, g += block.score;
+  const MatrixXd covariance = inverse_of(H);
+  const VectorXd step = -covariance * g;
+  WithoutLog out;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    const double std = std::sqrt(std::max(covariance(i, i), fit.covariance(i, i)));
+    if (c.positive && std::abs(step[i]) > std::max(kBeyondChance * std, kAnotherVehicle))
+      out.moved.push_back(c.name);
+  }
+  out.from_stated = (prior.residual + prior.slope.cwiseProduct(step)).squaredNorm();
+  return out;
+}
+
+}  // namespace
+
+std::vector<Warning> logs_agree(const FlightRecord& record, std::span<const FlightLog> logs,
+                                const Theta& theta, const FlightFit& fit) {
+  if (record.logs < 2 || fit.blocks.empty()) return {};
+  std::vector<std::string> moved;
+  int odd = -1;
+  double least = 0.0;
+  for (int log = 0; log < record.logs; ++log) {
+    const WithoutLog rest = without(record, theta, fit, log);
+    if (rest.moved.size() < kFew || (odd >= 0 && rest.from_stated > least)) continue;
+    odd = log, least = rest.from_stated, moved = rest.moved;
+  }
+  if (odd < 0) return {};
+  return {
+      {"logs_disagree",
+       fmt::format("{} does not fly like the others: without it {} would differ by a fifth or more; it is "
+                   "of another vehicle, or the vehicle was changed in between. Refine it by itself",
+                   logs[static_cast<std::size_t>(odd)].file, fmt::join(moved, ", "))}};
+}
+
+}  // namespace ident
