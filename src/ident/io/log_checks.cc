@@ -11,6 +11,7 @@
 #include <span>
 
 #include "ident/core/error.h"
+#include "ident/io/log_rows.h"
 
 namespace ident {
 namespace {
@@ -21,45 +22,11 @@ constexpr double kChanges = 0.9;      // of its rows
 constexpr double kSlowestLog = 0.5;   // s between rows; slower is a log in other units, or of no use
 constexpr double kLongGap = 10.0;     // times the usual step
 constexpr double kShortestGap = 0.1;  // s
-constexpr std::size_t kFewRows = 20;  // too few to judge
-constexpr double kDropOut = 0.3;      // s at zero between turning and turning: no rotor stops for so short
-constexpr double kTurns = 0.3;        // of the median
-
-std::optional<double> median(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return std::isnan(v); });
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-bool sampled(std::span<const std::vector<double>> sensor, std::size_t row) {
-  return std::ranges::any_of(sensor, [&](const std::vector<double>& c) { return !std::isnan(c[row]); });
-}
-
-bool same(std::span<const std::vector<double>> sensor, std::size_t a, std::size_t b) {
-  return std::ranges::all_of(sensor, [&](const std::vector<double>& c) {
-    return c[a] == c[b] || (std::isnan(c[a]) && std::isnan(c[b]));
-  });
-}
-
-/// Rows in which a sensor holds a value.
-std::vector<std::size_t> rows_of(std::span<const std::vector<double>> sensor) {
-  std::vector<std::size_t> rows;
-  if (sensor.front().empty()) return rows;
-  for (std::size_t i = 0; i < sensor.front().size(); ++i)
-    if (sampled(sensor, i)) rows.push_back(i);
-  return rows;
-}
 
 double norm(std::span<const std::vector<double>> sensor, std::size_t row) {
   double sum = 0.0;
   for (const std::vector<double>& c : sensor) sum += c[row] * c[row];
   return std::sqrt(sum);
-}
-
-void remove(Components sensor) {
-  for (std::vector<double>& c : sensor) c.clear();
 }
 
 /// Angle between two attitudes.
@@ -74,13 +41,13 @@ double turn(const FlightLog& log, std::size_t a, std::size_t b) {
 void drop_constant(FlightLog& log, Components sensor, const std::string& name) {
   const std::vector<std::size_t> rows = rows_of(sensor);
   if (sensor.front().empty()) return;
-  if (rows.empty()) return remove(sensor);
+  if (rows.empty()) return clear_all(sensor);
   if (rows.size() < kFewRows) return;
   const auto constant = [&](std::span<const std::vector<double>> part) {
     return std::ranges::all_of(rows, [&](std::size_t i) { return same(part, i, rows.front()); });
   };
   if (constant(sensor)) {
-    remove(sensor);
+    clear_all(sensor);
     log.warnings.push_back(
         {"constant_signal", fmt::format("{}: {}: never changes; taken as not measured", log.file, name)});
     return;
@@ -156,84 +123,6 @@ void drop_frozen(FlightLog& log, Components sensor, const std::string& name) {
                    log.file, name, runs.size(), runs.size() == 1 ? "" : "s", longest, at)});
 }
 
-namespace {
-
-/// Zeros for a short time between samples of a rotor that turns, made NaN; gives their number.
-std::size_t drop_zeros(const std::vector<double>& t, std::vector<double>& Omega) {
-  const double turning = kTurns * median(Omega).value_or(0.0);
-  std::size_t dropped = 0, last = Omega.size();  // last: sample of the turning rotor
-  for (std::size_t i = 0; i < Omega.size(); ++i) {
-    if (std::isnan(Omega[i]) || Omega[i] == 0.0) continue;
-    if (last < i && Omega[last] > turning && Omega[i] > turning && t[i] - t[last] < kDropOut)
-      for (std::size_t k = last + 1; k < i; ++k)
-        if (Omega[k] == 0.0) Omega[k] = kNaN, ++dropped;
-    last = i;
-  }
-  return dropped;
-}
-
-}  // namespace
-
-void check_rotor_speeds(FlightLog& log, Components Omega) {
-  if (rows_of(Omega).empty()) return remove(Omega);
-  std::size_t negative = 0, dropped = 0;
-  for (std::vector<double>& speed : Omega) {
-    negative += std::ranges::any_of(speed, [](double v) { return v < 0; });
-    for (double& v : speed) v = std::abs(v);
-    dropped += drop_zeros(log.t, speed);
-  }
-  if (negative > 0)
-    log.warnings.push_back(
-        {"rotor_speed_sign",
-         fmt::format("{}: {} of {} rotor speeds are negative: their sizes are taken; which way a rotor turns "
-                     "stands in the vehicle file",
-                     log.file, negative, Omega.size())});
-  if (dropped > 0)
-    log.warnings.push_back({"rotor_speed_dropouts",
-                            fmt::format("{}: rotor speeds drop to zero for a moment in {} samples: those "
-                                        "count as not sampled",
-                                        log.file, dropped)});
-  for (std::size_t n = 0; n < Omega.size(); ++n) {
-    const std::vector<std::size_t> rows = rows_of(Omega.subspan(n, 1));
-    if (rows.size() < kFewRows ||
-        !std::ranges::all_of(rows, [&](std::size_t i) { return Omega[n][i] == Omega[n][rows[0]]; }))
-      continue;
-    remove(Omega);
-    log.warnings.push_back(
-        {"constant_signal",
-         fmt::format("{}: omega{}: never changes; rotor speeds are taken as not measured", log.file, n + 1)});
-    return;
-  }
-}
-
-void check_commands(FlightLog& log) {
-  std::vector<std::string> dead;
-  for (std::size_t n = 0; n < log.delta.size() && n < log.Omega.size(); ++n) {
-    const auto moves = [&](const std::vector<double>& column) {
-      const std::span<const std::vector<double>> one(&column, 1);
-      const std::vector<std::size_t> rows = rows_of(one);
-      return rows.size() >= kFewRows &&
-             !std::ranges::all_of(rows, [&](std::size_t i) { return same(one, i, rows.front()); });
-    };
-    if (!moves(log.delta[n]) && moves(log.Omega[n])) dead.push_back(std::to_string(n + 1));
-  }
-  if (dead.empty()) return;
-  const bool speeds =
-      log.Omega.size() == log.delta.size() && std::ranges::all_of(log.Omega, [&](const auto& c) {
-        return rows_of(std::span(&c, 1)).size() > log.rows() / 2;
-      });
-  log.warnings.push_back(
-      {"constant_command",
-       fmt::format(
-           "{}: the command of rotor {} never changes, and its speed does: is the column the right "
-           "one? {}",
-           log.file, fmt::join(dead, ", "),
-           speeds
-               ? "The commands are left out, the speeds serve as input; of the motors this log says nothing"
-               : "Nothing that depends on commands can be trusted")});
-  if (speeds) log.delta.clear();
-}
-
 void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {
   std::vector<std::pair<std::string, std::string>> by_rate;
   for (const NamedSensor& sensor : sensors) {
@@ -241,7 +130,7 @@ void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {
     if (rows.size() < 2) continue;
     std::vector<double> steps;
     for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(log.t[rows[k]] - log.t[rows[k - 1]]);
-    const std::string rate = fmt::format("{:.3g} Hz", 1.0 / *median(steps));
+    const std::string rate = fmt::format("{:.3g} Hz", 1.0 / *middle_of(steps));
     auto at = std::ranges::find(by_rate, rate, &std::pair<std::string, std::string>::first);
     if (at == by_rate.end()) at = by_rate.insert(at, {rate, ""});
     at->second += (at->second.empty() ? "" : ", ") + sensor.name;
@@ -255,7 +144,7 @@ void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors) {
 void check_time(FlightLog& log, long header_line, bool unit_stated) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < log.t.size(); ++i) steps.push_back(log.t[i] - log.t[i - 1]);
-  const std::optional<double> usual = median(steps);
+  const std::optional<double> usual = middle_of(steps);
   if (!usual) throw DataError(log.file + ": t: the log holds a single row");
   if (*usual > kSlowestLog && !unit_stated)
     throw InputError(
@@ -277,8 +166,8 @@ void check_specific_force(FlightLog& log, long header_line, double gravity) {
   if (rows.size() < kFewRows) return;
   std::vector<double> sizes;
   for (const std::size_t i : rows) sizes.push_back(norm(log.f_B, i));
-  const double size = median(sizes).value_or(gravity);
-  const double down = median(log.f_B[2]).value_or(-gravity);
+  const double size = middle_of(sizes).value_or(gravity);
+  const double down = middle_of(log.f_B[2]).value_or(-gravity);
   if (size > 0.7 && size < 1.4 && gravity > 5.0)
     throw InputError(
         log.file, header_line, "ax, ay, az",
