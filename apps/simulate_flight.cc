@@ -109,7 +109,8 @@ void add_simulate_flight(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   sub->add_option("--rotor-rate", o->rotor_rate, "of rotor speeds, Hz; each row if not given");
   CLI::Option* step = sub->add_option("--step", o->flight.longest_step, "longest step of the integrator, s");
   step->capture_default_str();
-  sub->add_flag("--log-step", o->log_step, "one step from row to row, as an estimator makes it")
+  sub->add_flag("--log-step", o->log_step,
+                "steps as an estimator makes them, from row to row where rows are close")
       ->excludes(step);
   examples(*sub,
            {{"ident simulate flight --vehicle v.yaml --output flight.csv", "a minute of all manoeuvres"},

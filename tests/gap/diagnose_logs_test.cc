@@ -58,7 +58,7 @@ TEST(Diagnosis, HoverAloneTellsNoCause) {
   }
   for (std::size_t k = 0; k < 4; ++k) still.q_WB[k].assign(still.t.size(), k == 0 ? 1.0 : 0.0);
   shake(still.w_B, 0.01), shake(still.f_B, 0.1), shake(still.v_W, 0.01), shake(still.x_W, 0.002);
-  shake(still.Omega, 2.0);
+  shake(still.Omega, 2.0), shake(still.q_WB, 5e-4);
   const auto verdict = verdict_of(model, still);
   EXPECT_NE(verdict["status"], "identified") << verdict;
   EXPECT_NE(verdict["status"], "ambiguous") << verdict;

@@ -7,7 +7,7 @@
 namespace ident {
 namespace {
 
-constexpr double kHeld = 1e-4;  // of the value
+constexpr double kHeld = 1e-3;  // of what it is known to
 
 bool needs_motion(int index) {
   switch (index) {
@@ -37,7 +37,7 @@ std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants) {
     if (!needs_motion(c.index)) continue;
     held.push_back(c.name);
     if (!c.prior_std) c.prior_value = c.start;
-    c.prior_std = kHeld * std::abs(c.unit());
+    c.prior_std = kHeld * c.prior_std.value_or(std::abs(c.unit()));
   }
   return held;
 }
@@ -46,7 +46,7 @@ Vehicle held_for_hover(const Vehicle& vehicle) {
   Vehicle out = vehicle;
   for (auto& [name, known] : out.parameters)
     if (const ParameterInfo* info = find_parameter(name); info && needs_motion(info->index))
-      known.std = kHeld * std::abs(known.value);
+      known.std = kHeld * known.std.value_or(std::abs(known.value));
   return out;
 }
 

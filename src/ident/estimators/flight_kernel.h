@@ -65,7 +65,7 @@ struct ChunkTask {
   bool jacobian = true;
   bool exact = false;                  ///< slopes in double precision, at twice the cost
   const double* covariance = nullptr;  ///< of the local state, to compute leverages; or nullptr
-  double max_step = 0.0041;            ///< s; longer steps between rows are split
+  double max_step = kEstimatorStep;    ///< s; longer steps between rows are split
 };
 
 struct ChunkResult {

@@ -38,6 +38,23 @@ double turn(const FlightLog& log, std::size_t a, std::size_t b) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a column holds noise: its second differences then change sign from row to row more often than not.
+bool is_noisy(const std::vector<double>& column, const std::vector<std::size_t>& rows) {
+  constexpr double kAlternates = 0.4;  // two thirds do in white noise, none in what a formula gives
+  double before = 0;
+  std::size_t changes = 0, count = 0;
+  for (std::size_t k = 2; k < rows.size(); ++k) {
+    const double bend = column[rows[k]] - 2 * column[rows[k - 1]] + column[rows[k - 2]];
+    if (before != 0 && bend != 0) ++count, changes += (bend > 0) != (before > 0);
+    before = bend;
+  }
+  return static_cast<double>(changes) > kAlternates * static_cast<double>(count);
+}
+
+}  // namespace
+
 void drop_constant(FlightLog& log, Components sensor, const std::string& name) {
   const std::vector<std::size_t> rows = rows_of(sensor);
   if (sensor.front().empty()) return;
@@ -53,6 +70,8 @@ void drop_constant(FlightLog& log, Components sensor, const std::string& name) {
     return;
   }
   if (sensor.size() != 3) return;  // a quaternion without one of its four is none
+  // A flight in a plane, as a formula gives it, has constants as well.
+  if (std::ranges::none_of(sensor, [&](const auto& c) { return is_noisy(c, rows); })) return;
   for (std::size_t k = 0; k < 3; ++k) {
     if (std::isnan(sensor[k][rows.front()]) || !constant(sensor.subspan(k, 1))) continue;
     for (double& v : sensor[k]) v = kNaN;

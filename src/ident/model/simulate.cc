@@ -7,6 +7,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
+#include "ident/model/flight.h"
 #include "ident/model/recorder.h"
 #include "ident/model/scenario.h"
 #include "ident/model/turbulence.h"
@@ -99,7 +100,7 @@ class FlightLoop {
   }
 
   void reach(double t) {
-    plant_.advance(t, options_.longest_step > 0 ? options_.longest_step : 1e9);
+    plant_.advance(t, options_.longest_step > 0 ? options_.longest_step : kEstimatorStep);
     const BodyState<double>& body = plant_.state().body;
     const double height = plant_.vehicle().ground_z - body.x_W[2];
     const double up = rotation(body.q_WB)(2, 2);

@@ -26,7 +26,7 @@ struct SimulationOptions {
   std::string scenario = "mixed";
   double duration = 60.0;      ///< s
   double rate = 250.0;         ///< rows, and commands, a second
-  double longest_step = 5e-4;  ///< of the integrator, s; 0: from row to row in one step
+  double longest_step = 5e-4;  ///< of the integrator, s; 0: an estimator's, from row to row
   std::uint64_t seed = 1;
   SensorNoise noise = noise_level("typical");
   LoggedSignals signals;
