@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/estimators/flight_entry.h"
@@ -46,6 +47,26 @@ TEST(FlightRecord, LogsWithAndWithoutCommandsAreNotMixed) {
   EXPECT_THROW((void)make_flight_record(vehicle, parameter_vector(vehicle), logs), UsageError);
   logs[0].delta.clear();
   EXPECT_NO_THROW((void)make_flight_record(vehicle, parameter_vector(vehicle), logs));
+}
+
+TEST(FlightRecord, AnExcerptHoldsItsShareOfEveryLog) {
+  const Vehicle vehicle = random_vehicle(3);
+  SimulationOptions options;
+  options.duration = 40, options.rate = 100, options.longest_step = 0;
+  std::vector<FlightLog> logs(2, simulate_flight(vehicle, options).log);
+  // The second in arcs of 2 s: too short to be cut.
+  for (std::size_t i = 0; i < logs[1].rows(); ++i) logs[1].t[i] += std::floor(logs[1].t[i] / 2.0);
+  const FlightRecord record = make_flight_record(vehicle, parameter_vector(vehicle), logs);
+  const FlightRecord excerpt = excerpt_of(record, 0.25, 4.0);
+  EXPECT_NEAR(excerpt.duration, 0.25 * record.duration, 2.5);
+  double of_first = 0, of_second = 0;
+  for (const FlightArc& arc : excerpt.arcs) {
+    const double seconds = arc.t.back() - arc.t.front();
+    EXPECT_GT(seconds, 1.5);
+    (arc.log == 0 ? of_first : of_second) += seconds;
+  }
+  EXPECT_NEAR(of_first, 10.0, 1.0);
+  EXPECT_NEAR(of_second, 10.0, 2.5);
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ double training_end(const FlightArc& arc, double training_share);
 /// What is left of every arc after `training_share` of its time.
 FlightRecord held_out_of(const FlightRecord& record, double training_share);
 
-/// Stretches of about that many seconds, evenly spread, that make `share` of every arc; of short arcs, one.
+/// Stretches of about that many seconds, evenly spread, that make `share` of the flight; of short arcs some,
+/// whole. Something of every log.
 FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds);
 
 /// Name of a channel: p, ax, attitude x, omega1.

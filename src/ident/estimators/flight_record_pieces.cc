@@ -1,6 +1,7 @@
 // Parts of a record: held-out flight, and excerpts.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ident/estimators/flight_record.h"
 
@@ -47,20 +48,29 @@ FlightRecord held_out_of(const FlightRecord& record, double training_share) {
 FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds) {
   FlightRecord excerpt = without_arcs(record);
   excerpt.duration = 0;
+  const auto take = [&](const FlightArc& arc, std::size_t begin, std::size_t end) {
+    if (end < begin + 8) return;
+    excerpt.arcs.push_back(arc.piece(begin, end));
+    excerpt.duration += arc.t[end - 1] - arc.t[begin];
+  };
+  // Short arcs are taken whole, some of them: the first of each log, and the next as often as the share asks.
+  std::vector<double> owed(static_cast<std::size_t>(record.logs), std::numeric_limits<double>::infinity());
   for (const FlightArc& arc : record.arcs) {
     const double first = arc.t.front(), length = arc.t.back() - first;
-    const int stretches = std::max(1, static_cast<int>(std::lround(share * length / seconds)));
-    const double every = length / stretches;
+    if (share * length < 0.5 * seconds) {
+      double& now = owed[static_cast<std::size_t>(arc.log)];
+      const bool whole = (now += share * length) >= length;
+      if (whole) now = std::isfinite(now) ? now - length : 0.0, take(arc, 0, arc.rows());
+      continue;
+    }
+    const auto stretches = std::max(1L, std::lround(share * length / seconds));
+    const double every = length / static_cast<double>(stretches);
     const auto row_at = [&](double t) {
       return static_cast<std::size_t>(std::lower_bound(arc.t.begin(), arc.t.end(), t) - arc.t.begin());
     };
-    for (int i = 0; i < stretches; ++i) {
-      const double middle = first + (i + 0.5) * every;
-      const std::size_t begin = row_at(middle - 0.5 * share * every);
-      const std::size_t end = row_at(middle + 0.5 * share * every);
-      if (end - begin < 8) continue;
-      excerpt.arcs.push_back(arc.piece(begin, end));
-      excerpt.duration += arc.t[end - 1] - arc.t[begin];
+    for (long i = 0; i < stretches; ++i) {
+      const double middle = first + (static_cast<double>(i) + 0.5) * every;
+      take(arc, row_at(middle - 0.5 * share * every), row_at(middle + 0.5 * share * every));
     }
   }
   return excerpt;
