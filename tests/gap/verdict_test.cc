@@ -17,6 +17,8 @@ TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   EXPECT_EQ(c.judged().sentence, "The model explains these logs down to the noise; no cause stands out.");
   c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
   EXPECT_EQ(c.judged().status, "unknown");
+  c.jumps = {{"Mz", 0, 5, 8.0, 3.0}};  // gusts do that by a drag that is known
+  EXPECT_EQ(c.judged().status, "none");
   c.jumps.clear();
   c.lines.push_back({"az", 36.0, 20.0, 0.3});
   EXPECT_EQ(c.judged().status, "unknown");
@@ -27,6 +29,17 @@ TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   const Judged seen = c.judged();
   EXPECT_EQ(seen.status, "unknown");
   EXPECT_NE(seen.sentence.find("Fz"), std::string::npos) << seen.sentence;
+}
+
+TEST(Verdict, WhatIsHardlyThereBesideAStrongCauseIsNotNamed) {
+  Case c({"motor_asymmetry", "sensor_delay"}, {"motor_asymmetry", "sensor_delay"});
+  c.weighs({0}, 0.95);
+  c.weighs({0, 1}, 0.05);
+  EXPECT_EQ(c.judged().effects, Names{"motor_asymmetry"});
+  c.search.sets.clear();
+  c.weighs({0}, 0.6);
+  c.weighs({0, 1}, 0.4);
+  EXPECT_EQ(c.judged().effects, (Names{"motor_asymmetry", "sensor_delay"}));
 }
 
 TEST(Verdict, ACauseBesideTheOneFoundIsNoRivalAndOneInItsPlaceIs) {
@@ -160,14 +173,15 @@ TEST(Verdict, FourCausesInTheVehicleAreNoAnswerThoughNothingElseExplainsIt) {
 }
 
 TEST(Verdict, HowTheSensorIsMountedIsNamedOnTopOfThree) {
-  Case c({"rotor_drag", "wind", "ground_effect", "imu_bias", "imu_lever_arm"},
+  Case c({"rotor_drag", "wind", "ground_effect", "imu_bias", "imu_lever_arm", "axial_inflow"},
          {"wind", "ground_effect", "imu_bias"});
   c.weighs({1, 2, 3}, 0.6);
   c.weighs({1, 2, 4}, 0.4);
   const Judged mounted = c.judged();
   EXPECT_EQ(mounted.status, "ambiguous");
   EXPECT_EQ(mounted.effects.size() + mounted.confused_with.size(), 4U);
-  c.search.sets[1].members = {0, 2, 4};
+  c.search.sets[0].members = {1, 2, 3, 5};
+  c.search.sets[1].members = {0, 2, 4, 5};
   c.search.best.adopted.push_back({"axial_inflow"});
   EXPECT_EQ(c.judged().status, "unknown");
 }

@@ -42,6 +42,19 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
   return names;
 }
 
+// Without those that were taken up and are hardly there once all are weighed by the scatter of the strongest:
+// they mend its form. A battery that thrust itself shows is weighed otherwise.
+std::vector<std::string> probable_names(const SearchResult& search) {
+  constexpr double kHardlyThere = 0.1, kThere = 0.5;
+  std::vector<std::string> names = names_of(search.best.adopted);
+  const auto there = [&](const std::string& n) { return search.probability_of(n) > kThere; };
+  if (std::ranges::any_of(names, there))
+    std::erase_if(names, [&](const std::string& n) {
+      return search.probability_of(n) < kHardlyThere && !(n == "battery_sag" && search.thrust.plain());
+    });
+  return names;
+}
+
 std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
   return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
 }
@@ -116,7 +129,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
                     fmt::join(search.ran_away, " or "));
     return out;
   }
-  out.effects = names_of(search.best.adopted);
+  out.effects = probable_names(search);
   if (out.effects.empty()) return nothing_found(gap, rival, lines, jumps, fitted);
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   if (const std::string why = against_naming(search, gap, rival, lines, jumps, fitted); !why.empty()) {
