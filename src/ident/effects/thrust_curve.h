@@ -3,8 +3,8 @@
 //   T = kT Omega^2 (1 + c (x - 1) + offset (x - 1)^2/(x^2 + 0.02)) ,   x = Omega/Omega_hover
 //
 // Omega_hover is the nominal hover speed sqrt(m g/(N kT)); kT is then the value at hover, and c its slope
-// there. A thrust stand's T = a + b Omega + c Omega^2 has both terms, with `offset` = a over the thrust at
-// hover; the 0.02 keeps a rotor at rest without thrust.
+// there. A thrust stand's T = a + b Omega + c Omega^2 is met to second order about hover, with `offset` =
+// a over the thrust at hover, less c; the 0.02 keeps a rotor at rest without thrust.
 //
 // Looks like: Fz depends on collective.
 // Confused with: parameter:kT, battery_sag, axial_inflow.

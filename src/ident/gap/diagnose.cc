@@ -164,6 +164,11 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
   result.parameters = flight_parameters(best, search.best.fit, "gap");
+  if (hover) {  // what was held is known no better than before
+    const std::vector<FreeConstant> known = free_constants(vehicle, p);
+    std::vector<FreeConstant> held = known;
+    as_before_flight(result.parameters, known, hold_for_hover(held));
+  }
   Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   const std::string wrong = disqualified(tested);
   if (hover && !verdict.effects.empty()) {
@@ -243,7 +248,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.extra["signatures"] = to_json(evidence.signatures);
   result.sections = gap_sections(result.extra, before, after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise));
-  out.adopted = adopted_vehicle(vehicle, search.best);
+  out.adopted = hover ? vehicle : adopted_vehicle(vehicle, search.best);
   return out;
 }
 
