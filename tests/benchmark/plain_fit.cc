@@ -50,7 +50,9 @@ struct Segment {
         add(kVelocity + k, x.body.v_W[k]), add(kPosition + k, x.body.x_W[k]);
         add(kAttitude + k, sign * turn[1 + k]);
       }
-      flight.step_on(x, t[i], t[i + 1] - t[i], rate);
+      const int parts = 1 + static_cast<int>((t[i + 1] - t[i]) / kEstimatorStep);
+      const double h = (t[i + 1] - t[i]) / parts;
+      for (int part = 0; part < parts; ++part) flight.step_on(x, t[i] + part * h, h, rate);
     }
     return true;
   }

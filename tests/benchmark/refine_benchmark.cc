@@ -176,8 +176,8 @@ int run(int runs) {
   std::filesystem::remove_all(folder);
 
   const Eigen::MatrixXd S = one->linearize(fast.u).S;
-  fast = fit_fast(problem, 2, 1e-9, true);
-  plain = fit_plainly(problem.record, theta, kSegment, 1e-15, 2);
+  fast = fit_fast(problem, 2, 1e-18, true);
+  plain = fit_plainly(problem.record, theta, kSegment, 1e-18, 2);
   double apart = 0, in_std = 0;
   for (int i = 0; i < theta.size(); ++i) {
     apart = std::max(apart, std::abs(theta.physical(fast.u, i) / theta.physical(plain.u, i) - 1));

@@ -5,6 +5,7 @@
 
 #include "ident/core/error.h"
 #include "support/diagnosed.h"
+#include "support/known_quad.h"
 
 namespace ident {
 namespace {
@@ -62,6 +63,32 @@ TEST(Diagnosis, HoverAloneTellsNoCause) {
   const auto verdict = verdict_of(model, still);
   EXPECT_NE(verdict["status"], "identified") << verdict;
   EXPECT_NE(verdict["status"], "ambiguous") << verdict;
+}
+
+// A shifted centre of gravity shows in hover and cannot be told there from a weak rotor: that is not `none`.
+TEST(Diagnosis, WhatHoverShowsIsNotNone) {
+  const Vehicle truth = testing::quad();
+  const FlightLog straight = testing::hover(truth, 20), shifted = testing::hover(truth, 20, 0.005);
+  EXPECT_EQ(verdict_of(testing::known(truth), straight)["status"], "none");
+  const auto verdict = verdict_of(testing::known(truth), shifted);
+  EXPECT_EQ(verdict["status"], "unknown") << verdict;
+  EXPECT_NE(verdict["sentence"].get<std::string>().find("hover"), std::string::npos) << verdict;
+}
+
+// Clocks that differ are no dead time of a motor, and none is written.
+TEST(Diagnosis, RotorsThatGoBeforeTheirCommandsAreNotNamed) {
+  Vehicle model = testing::known(testing::quad());
+  FlightLog log = testing::flight(testing::quad(), 250, 7, 25);
+  log.Omega.clear();
+  constexpr std::size_t late = 5;  // rows of 4 ms
+  for (auto& column : log.delta) {
+    column.insert(column.begin(), late, column.front());
+    column.resize(log.t.size());
+  }
+  const Diagnosis found = diagnose_gap(model, std::vector<FlightLog>{log});
+  EXPECT_EQ(found.result.extra["verdict"]["status"], "unknown") << found.result.extra["verdict"];
+  EXPECT_TRUE(found.result.has_warning("negative_dead_time"));
+  EXPECT_GE(found.adopted.value("dead_time"), 0.0);
 }
 
 }  // namespace

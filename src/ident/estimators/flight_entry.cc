@@ -21,6 +21,24 @@ double mean_of_used(const std::vector<double>& column) {
   return n > 0 ? sum / n : kNaN;
 }
 
+// Commands of all logs or of none: where those of one are missing, or were left out as not the right ones,
+// rotor speeds serve as input for all. Empty where nothing has to be changed.
+std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::vector<Warning>& warnings) {
+  const auto commanded = std::ranges::count_if(logs, &FlightLog::has_commands);
+  if (commanded == 0 || commanded == std::ssize(logs) ||
+      !std::ranges::all_of(logs, &FlightLog::has_rotor_speeds))
+    return {};
+  std::vector<FlightLog> out(logs.begin(), logs.end());
+  for (FlightLog& log : out) log.delta.clear();
+  const auto without = std::ranges::find_if_not(logs, &FlightLog::has_commands);
+  warnings.push_back(
+      {"commands_left_out",
+       fmt::format("{} has no usable commands: rotor speeds serve as input for all logs, and of "
+                   "the motors nothing is said; give the others alone for that",
+                   without->file)});
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const FlightLog> logs,
@@ -55,7 +73,9 @@ std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const F
   return parameter_vector(start);
 }
 
-FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, Result& result) {
+FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> given, Result& result) {
+  const std::vector<FlightLog> alike = with_like_inputs(given, result.warnings);
+  const std::span<const FlightLog> logs = alike.empty() ? given : std::span<const FlightLog>(alike);
   const auto tell = [&](const std::vector<Warning>& warnings) {
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   };

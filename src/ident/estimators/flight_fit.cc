@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/estimators/flight_fit_steps.h"
 
@@ -110,7 +111,10 @@ class Fitting {
   bool go_on_from(const Fitting& excerpt) {
     u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
     restart(excerpt.smoother_->noise());
-    if (!(square_of(*smoother_) < kFar)) return false;
+    if (!(square_of(*smoother_) < kFar)) {
+      u_.setZero(), axes_chosen_ = false, steps_ = 0;
+      return false;
+    }
     const NewtonStep step = newton_step(*smoother_, u_);
     if (step.fall < kNear * theta_.size() && theta_.possible(u_ + step.du)) u_ += step.du;
     return true;
@@ -205,6 +209,13 @@ class Fitting {
   bool axes_asked_ = false, axes_chosen_ = false;  // here; beyond doubt
 };
 
+// Whether every log that flies is in an excerpt.
+bool of_every_log(const FlightRecord& excerpt, const FlightRecord& record) {
+  return std::ranges::all_of(record.arcs, [&](const FlightArc& arc) {
+    return std::ranges::find(excerpt.arcs, arc.log, &FlightArc::log) != excerpt.arcs.end();
+  });
+}
+
 }  // namespace
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
@@ -217,11 +228,13 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   bool begun = false;
   if (options.estimate_noise && record.duration > kLong) {
     const double share = std::clamp(kExcerpt / record.duration, kLeastShare, kMostShare);
-    const FlightRecord excerpt = excerpt_of(record, share, kStretch);
-    Fitting first(excerpt, theta, options);
-    first.begin();
-    first.find_noise(tell(0.1, 0.4));
-    begun = fitting.go_on_from(first);
+    if (const FlightRecord excerpt = excerpt_of(record, share, kStretch); of_every_log(excerpt, record)) try {
+        Fitting first(excerpt, theta, options);
+        first.begin();
+        first.find_noise(tell(0.1, 0.4));
+        begun = fitting.go_on_from(first);
+      } catch (const DataError&) {  // too little of it to be simulated; the whole may be
+      }
   }
   if (!begun) fitting.begin();
   if (options.estimate_noise) fitting.find_noise(tell(0.4, 0.8));

@@ -29,12 +29,6 @@ bool needs_motion(int index) {
   }
 }
 
-// Without a deviation these are free, others are taken for exact.
-bool is_always_free(int index) {
-  return index == param::kQ || index == param::omega_m || index == param::zeta_m || index == param::Jxx ||
-         index == param::Jyy || index == param::Jzz;
-}
-
 }  // namespace
 
 std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants) {
@@ -46,15 +40,6 @@ std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants) {
     c.prior_std = kHeld * c.prior_std.value_or(std::abs(c.unit()));
   }
   return held;
-}
-
-Vehicle held_for_hover(const Vehicle& vehicle) {
-  Vehicle out = vehicle;
-  for (auto& [name, known] : out.parameters)
-    if (const ParameterInfo* info = find_parameter(name);
-        info && needs_motion(info->index) && (known.std || is_always_free(info->index)))
-      known.std = kHeld * known.std.value_or(std::abs(known.value));
-  return out;
 }
 
 void as_before_flight(std::vector<Parameter>& parameters, const std::vector<FreeConstant>& constants,

@@ -14,9 +14,6 @@ namespace ident {
 /// of one initial transient. Gives their names.
 std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants);
 
-/// The vehicle with the same constants known as well as they are held.
-Vehicle held_for_hover(const Vehicle& vehicle);
-
 /// Says of the constants held what `constants`, as they were before, say of them: nothing comes from flight.
 void as_before_flight(std::vector<Parameter>& parameters, const std::vector<FreeConstant>& constants,
                       std::span<const std::string> held);

@@ -18,10 +18,16 @@ using Eigen::VectorXd;
 
 constexpr double kBeyondChance = 10.0;   // standard deviations
 constexpr double kAnotherVehicle = 0.2;  // of the value: flights of one vehicle scatter by less
+constexpr double kTold = 0.1;            // deviation of a constant that the other logs tell by themselves
 constexpr std::size_t kFew = 2;          // constants; a worn battery moves one
+
+// Thrust, which every vehicle has another of for its weight; an effect that the model lacks rarely moves it
+// along with others.
+bool is_of_thrust(int index) { return index == param::kT || index == param::m || index == param::km; }
 
 struct WithoutLog {
   std::vector<std::string> moved;  // constants that would be another vehicle's
+  bool beyond_doubt = false;       // the other logs tell such by themselves, and one of them is of thrust
   double from_stated = 0.0;        // cost of the priors there
 };
 
@@ -34,12 +40,17 @@ WithoutLog without(const FlightRecord& record, const Theta& theta, const FlightF
   const MatrixXd covariance = inverse_of(H);
   const VectorXd step = -covariance * g;
   WithoutLog out;
+  std::size_t told = 0;
+  bool thrust = false;
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
     const double std = std::sqrt(std::max(covariance(i, i), fit.covariance(i, i)));
-    if (c.positive && std::abs(step[i]) > std::max(kBeyondChance * std, kAnotherVehicle))
-      out.moved.push_back(c.name);
+    if (!c.positive || !(std::abs(step[i]) > std::max(kBeyondChance * std, kAnotherVehicle))) continue;
+    out.moved.push_back(c.name);
+    if (!(std::sqrt(covariance(i, i)) < kTold)) continue;
+    told += 1, thrust |= is_of_thrust(c.index);
   }
+  out.beyond_doubt = told >= kFew && thrust;
   out.from_stated = (prior.residual + prior.slope.cwiseProduct(step)).squaredNorm();
   return out;
 }
@@ -50,14 +61,16 @@ std::vector<Warning> logs_agree(const FlightRecord& record, std::span<const Flig
                                 const Theta& theta, const FlightFit& fit) {
   if (record.logs < 2 || fit.blocks.empty()) return {};
   std::vector<std::string> moved;
+  bool beyond_doubt = false;
   int odd = -1;
   double least = 0.0;
   for (int log = 0; log < record.logs; ++log) {
     const WithoutLog rest = without(record, theta, fit, log);
+    beyond_doubt |= rest.beyond_doubt;
     if (rest.moved.size() < kFew || (odd >= 0 && rest.from_stated > least)) continue;
     odd = log, least = rest.from_stated, moved = rest.moved;
   }
-  if (odd < 0) return {};
+  if (!beyond_doubt) return {};
   return {
       {"logs_disagree",
        fmt::format("{} does not fly like the others: without it {} would differ by a fifth or more; it is "

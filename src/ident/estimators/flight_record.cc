@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/estimators/flight_record_start.h"
@@ -13,7 +14,8 @@ namespace {
 constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
 // With rows the commands are missing: so many steps without one, at least so many seconds, end an arc.
 constexpr double kMissedRows = 5.0, kShortestGap = 0.03;
-constexpr double kHistory = 0.05;  ///< s of commands beyond the stated dead time that a flight starts with
+constexpr double kEnoughLeft = 0.7;  // of the flight, in such pieces
+constexpr double kHistory = 0.05;    ///< s of commands beyond the stated dead time that a flight starts with
 
 Signals signals_of(std::span<const FlightLog> logs) {
   Signals s;
@@ -89,10 +91,11 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
   return fly;
 }
 
+using Pieces = std::vector<std::pair<std::size_t, std::size_t>>;
+
 // Rows that hold nothing but time end an arc when they last; so do jumps of time. What the motors do in the
 // first `history` seconds after a jump, or after the log's start, was commanded before and is not in the log.
-std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, std::vector<bool> fly,
-                                                        double gap, double history) {
+Pieces pieces(const FlightLog& log, std::vector<bool> fly, double gap, double history) {
   double known_from = log.t.front() + history;
   const auto breaks_before = [&](std::size_t i) {
     return i > 0 &&
@@ -102,7 +105,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, st
     if (breaks_before(i)) known_from = log.t[i] + history;
     if (log.t[i] < known_from) fly[i] = false;
   }
-  std::vector<std::pair<std::size_t, std::size_t>> out;
+  Pieces out;
   std::size_t begin = 0;
   bool open = false;
   for (std::size_t i = 0; i < log.rows(); ++i) {
@@ -119,10 +122,42 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces(const FlightLog& log, st
   return out;
 }
 
+// Between rows that hold a command: messages of several sensors come in rows of their own.
 double usual_step(const FlightLog& log) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < log.rows(); ++i) steps.push_back(log.t[i] - log.t[i - 1]);
+  double last = kNaN;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (std::ranges::none_of(log.delta, [&](const auto& c) { return std::isfinite(c[i]); })) continue;
+    if (std::isfinite(last)) steps.push_back(log.t[i] - last);
+    last = log.t[i];
+  }
   return median(steps);
+}
+
+double seconds_of(const FlightLog& log, const Pieces& all) {
+  double sum = 0;
+  for (const auto& [begin, end] : all) sum += log.t[end - 1] - log.t[begin];
+  return sum;
+}
+
+// What flies of a log, in pieces without a hole. Where that would cost much of the flight, commands are held
+// over holes instead.
+Pieces whole_pieces(const FlightLog& log, double history, double longest_gap,
+                    std::vector<Warning>& warnings) {
+  const std::vector<bool> fly = in_flight(log, warnings);
+  const Pieces loose = pieces(log, fly, longest_gap, history);
+  if (!log.has_commands()) return loose;
+  const double gap =
+      std::clamp(kMissedRows * usual_step(log), std::min(kShortestGap, longest_gap), longest_gap);
+  Pieces strict = pieces(log, fly, gap, history);
+  if (seconds_of(log, strict) > kEnoughLeft * seconds_of(log, loose)) return strict;
+  warnings.push_back(
+      {"holes_bridged",
+       fmt::format("{}: rows are missing so often that little would be left between the holes: "
+                   "commands are held over those of up to {:.2g} s, and what the rotors did "
+                   "there is not known",
+                   log.file, longest_gap)});
+  return loose;
 }
 
 // What sag is counted from where the vehicle file names no voltage: one for all logs, which share km.
@@ -195,10 +230,11 @@ bool is_driven(const FlightArc& arc) {
 void require_like_inputs(std::span<const FlightLog> logs) {
   for (const FlightLog& log : logs)
     if (log.has_commands() != logs.front().has_commands())
-      throw UsageError(fmt::format(
-          "{} has commands and {} has not: give them apart, or leave the command columns out of all",
-          log.has_commands() ? log.file : logs.front().file,
-          log.has_commands() ? logs.front().file : log.file));
+      throw UsageError(
+          fmt::format("{} has commands and {} has no usable ones: give them apart, or leave the command "
+                      "columns out of all",
+                      log.has_commands() ? log.file : logs.front().file,
+                      log.has_commands() ? logs.front().file : log.file));
 }
 
 }  // namespace
@@ -220,12 +256,8 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   for (std::size_t n = 0; n < logs.size(); ++n) {
     const FlightLog& log = logs[n];
     if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");
-    const std::vector<bool> fly = in_flight(log, record.warnings);
     const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
-    const double gap = log.has_commands()
-                           ? std::clamp(kMissedRows * usual_step(log), kShortestGap, options.longest_gap)
-                           : options.longest_gap;
-    for (const auto& [begin, end] : pieces(log, fly, gap, history))
+    for (const auto& [begin, end] : whole_pieces(log, history, options.longest_gap, record.warnings))
       if (FlightArc arc = make_arc(log, static_cast<int>(n), begin, end, vehicle, v0); is_driven(arc))
         record.arcs.push_back(std::move(arc));
   }

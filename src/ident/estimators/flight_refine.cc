@@ -139,6 +139,19 @@ std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
   return out;
 }
 
+bool is_before_its_command(const Parameter& p) { return p.name == "dead_time" && p.value + 2 * p.std < 0; }
+
+void doubt_negative_dead_time(Result& result) {
+  const auto early = std::ranges::find_if(result.parameters, is_before_its_command);
+  if (early == result.parameters.end()) return;
+  early->identifiable = false;
+  early->note = "negative: no motor turns before its command";
+  result.warn(
+      "negative_dead_time",
+      "rotors seem to follow commands before these come: the clocks of commands and sensors differ, or "
+      "the model lacks something (try ident gap)");
+}
+
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   for (const Parameter& p : result.parameters) {
     const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
@@ -152,15 +165,7 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
               format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull));
     }
   }
-  for (Parameter& p : result.parameters)
-    if (p.name == "dead_time" && p.value + 2 * p.std < 0) {
-      p.identifiable = false;
-      p.note = "negative: no motor turns before its command";
-      result.warn(
-          "negative_dead_time",
-          "rotors seem to follow commands before these come: the clocks of commands and sensors differ, or "
-          "the model lacks something (try ident gap)");
-    }
+  doubt_negative_dead_time(result);
   std::string unknown;
   for (const Parameter& p : result.parameters)
     if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;

@@ -36,6 +36,12 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
 std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
                                       const std::vector<Parameter>& parameters);
 
+/// A dead time that is negative beyond chance, which no motor has.
+bool is_before_its_command(const Parameter& p);
+
+/// Warns (`negative_dead_time`) of such a one, which counts as not identifiable.
+void doubt_negative_dead_time(Result& result);
+
 /// Warns where the flight disagrees with what was known beforehand, and of what it does not determine.
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit);
 

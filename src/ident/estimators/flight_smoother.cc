@@ -46,6 +46,7 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
     arc_begin_.push_back(places_.size());
+    unseen_.push_back(unseen_in(arc));
     std::size_t begin = 0;
     while (begin + 1 < arc.rows()) {
       std::size_t end = begin + 1;

@@ -157,6 +157,7 @@ class FlightSmoother {
   Eigen::VectorXd defect(std::size_t k) const;
   Eigen::VectorXd link_weight(std::size_t k) const;
   Eigen::VectorXd carried(std::size_t k) const;
+  Eigen::VectorXd unseen_in(const FlightArc& arc) const;
   Eigen::VectorXd start_information(std::size_t k) const;
   const AirNoise& air_of(std::size_t k) const;
   Eigen::VectorXd outside(std::size_t k) const;
@@ -164,6 +165,7 @@ class FlightSmoother {
   Eigen::MatrixXd profile(std::size_t k) const;
   void link_slope(std::size_t k, chunk::RowMatrix& E) const;
   void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum, const Eigen::VectorXd* held);
+  static void damp_undetermined(chunk::RowMatrix& D, int n);
   void add_start(std::size_t k, ArcElimination& arc) const;
   void add_link(std::size_t k, ArcElimination& arc, const Eigen::VectorXd* held) const;
   Eigen::VectorXd shared_optimum() const;
@@ -187,6 +189,7 @@ class FlightSmoother {
   bool eliminated_ = false;  // the last linearisation, under the present noise, shared unknowns free
   std::vector<ChunkPlace> places_;
   std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
+  std::vector<Eigen::VectorXd> unseen_;              // unseen_in() each arc
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
   std::vector<Eigen::VectorXd> steps_;               // from the one to the other
   std::vector<ChunkResult> results_;

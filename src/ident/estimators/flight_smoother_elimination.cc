@@ -52,6 +52,23 @@ struct FlightSmoother::ArcElimination {
   double cost = 0.0, log_det = 0.0;
 };
 
+// Damping only for states that nothing at all determines, those whose pivot is lost to rounding: of any other
+// it would pass for information on the constants that move it.
+void FlightSmoother::damp_undetermined(chunk::RowMatrix& D, int n) {
+  constexpr double kRounding = 1e-13, kDamping = 1e-10;
+  MatrixXd L = MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < i; ++k) L(i, k) = (D(i, k) - L.row(i).head(k).dot(L.row(k).head(k))) / L(k, k);
+    const double least = kRounding * std::max(D(i, i), 1e-200);
+    double pivot = D(i, i) - L.row(i).head(i).squaredNorm();
+    if (!(pivot > least)) {
+      const double damping = kDamping * std::max(D(i, i), 1e-200);
+      D(i, i) += damping, pivot = std::max(pivot, 0.0) + damping;
+    }
+    L(i, i) = std::sqrt(pivot);
+  }
+}
+
 // What is known of the accelerations from outside where an arc begins.
 void FlightSmoother::add_start(std::size_t k, ArcElimination& arc) const {
   const VectorXd info = start_information(k), x = outside(k);
@@ -123,11 +140,9 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
       add_link(k, arc, held);
     else
       arc.U.setZero();
-    // Damping only for states that nothing at all determines: it would pass for information on the constants
-    // that move them.
     Eigen::LLT<ArcElimination::Matrix> llt(arc.D());
     if (llt.info() != Eigen::Success) {
-      arc.D().diagonal() += 1e-10 * arc.D().diagonal().cwiseMax(1e-200);
+      damp_undetermined(arc.own, n);
       llt.compute(arc.D());
     }
     const ArcElimination::Matrix& L = llt.matrixLLT();

@@ -27,7 +27,34 @@ constexpr double kMotorFloor = 100.0;
 
 double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma + kLeastOutside; }
 
+// What is known beforehand of what an arc does not measure: 10 rad/s, 1 rad, 20 m/s, 100 m.
+constexpr double kUnseenRate = 1e-2, kUnseenAttitude = 1.0, kUnseenVelocity = 2.5e-3, kUnseenPlace = 1e-4;
+
+std::array<bool, kChannels> measured_in(const FlightArc& arc) {
+  std::array<bool, kChannels> seen{};
+  for (std::size_t i = 0; i < arc.y.size(); ++i) seen[i % kChannels] |= std::isfinite(arc.y[i]);
+  return seen;
+}
+
 }  // namespace
+
+// Information on the state at the start of an arc that stands in for what is not measured anywhere in it: a
+// state that nothing tells would take all digits of the others with it.
+VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
+  const StateLayout& layout = record_->layout;
+  const std::array<bool, kChannels> seen = measured_in(arc);
+  VectorXd info = VectorXd::Zero(layout.size);
+  const auto assume = [&](int at, double least, int channel, int derived_from) {
+    for (int i = 0; i < 3 && at >= 0; ++i)
+      if (!seen[static_cast<std::size_t>(channel + i)] && !seen[static_cast<std::size_t>(derived_from + i)])
+        info[at + i] = least;
+  };
+  assume(layout.w, kUnseenRate, kGyro, kAttitude);
+  assume(layout.attitude, kUnseenAttitude, kAttitude, kAttitude);
+  assume(layout.v, kUnseenVelocity, kVelocity, kPosition);
+  assume(layout.x, kUnseenPlace, kPosition, kPosition);
+  return info;
+}
 
 const AirNoise& FlightSmoother::air_of(std::size_t k) const {
   return noise_.in_log(record_->arcs[static_cast<std::size_t>(places_[k].arc)].log);
@@ -51,7 +78,7 @@ VectorXd FlightSmoother::carried(std::size_t k) const {
 VectorXd FlightSmoother::start_information(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const AirNoise& air = air_of(k);
-  VectorXd info = VectorXd::Zero(layout.size);
+  VectorXd info = unseen_[static_cast<std::size_t>(places_[k].arc)];
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / variance(air.w_dot[axis]);
@@ -124,6 +151,11 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   };
   continues(layout.w, kGyro), continues(layout.attitude, kAttitude);
   continues(layout.v, kVelocity), continues(layout.x, kPosition);
+  // Unseen places and velocities lose themselves, by more than all digits in the end: they start anew.
+  const VectorXd& unseen = unseen_[static_cast<std::size_t>(places_[k].arc)];
+  for (const int at : {layout.v, layout.x})
+    for (int i = at; at >= 0 && i < at + 3; ++i)
+      if (unseen[i] > 0) W[i] = unseen[i];
   const auto wanders = [&](int at, const std::array<ColouredNoise, 3>& noise) {
     for (int i = 0; i < 3 && at >= 0; ++i) {
       const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];

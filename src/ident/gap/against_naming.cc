@@ -8,6 +8,7 @@
 #include <functional>
 #include <initializer_list>
 
+#include "ident/estimators/flight_refine.h"
 #include "ident/gap/further.h"
 
 namespace ident {
@@ -233,6 +234,8 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
     return fmt::format(
         "with that the flight contradicts the value of {} known beforehand by {:.0f} standard deviations",
         p->name, std::abs(*p->pull));
+  if (std::ranges::any_of(fitted, is_before_its_command))
+    return "rotors would follow commands before these come: the clocks of commands and sensors differ";
   if (const Candidate* cause = changing(search))
     return fmt::format("the value of {} would have to change from one part of the flight to the next",
                        described(*cause));

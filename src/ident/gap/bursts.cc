@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/estimators/statistics.h"
+
 namespace ident {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr int kLeast = 30;       // jumps in a log, to know what is steady
 // Where gusts act by a known drag their pushes go with the flight: what is steady is also judged by the jumps
 // within so many seconds to either side.
 constexpr double kNearby = 2.5;
+constexpr std::size_t kNeighbours = 10;
 
 struct Jump {
   double size, seen, t;  // seen: in standard deviations of the sensor over the piece
@@ -36,18 +39,13 @@ std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int
   return out;
 }
 
-double median_size(std::vector<double> sizes) {
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  return *middle;
-}
-
 // Deviation of steady jumps about jump i, of those that are in order of time.
 double spread_about(const std::vector<Jump>& jumps, std::size_t i, double overall) {
   std::vector<double> nearby;
-  for (const Jump& j : jumps)
-    if (std::abs(j.t - jumps[i].t) <= kNearby) nearby.push_back(j.size);
-  return std::max(overall, 1.4826 * median_size(std::move(nearby)));
+  for (std::size_t k = 0; k < jumps.size(); ++k)
+    if (k != i && std::abs(jumps[k].t - jumps[i].t) <= kNearby) nearby.push_back(jumps[k].size);
+  if (nearby.size() < kNeighbours) return overall;
+  return std::max(overall, 1.4826 * median(nearby));
 }
 
 }  // namespace
@@ -62,7 +60,7 @@ std::vector<Burst> bursts(const FlightRecord& record, const FlightFit& fit) {
       if (jumps.size() < kLeast) continue;
       std::vector<double> sizes;
       for (const Jump& j : jumps) sizes.push_back(j.size);
-      const double overall = 1.4826 * median_size(std::move(sizes));
+      const double overall = 1.4826 * median(sizes);
       Burst found{names[static_cast<std::size_t>(axis)], log, 0, 0.0, 0.0};
       for (std::size_t i = 0; i < jumps.size(); ++i) {
         const Jump& j = jumps[i];

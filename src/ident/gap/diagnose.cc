@@ -13,6 +13,7 @@
 #include "ident/core/nearest_word.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
+#include "ident/estimators/flight_inertia.h"
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
@@ -97,6 +98,32 @@ void trust_less(Json& candidates, const std::vector<std::string>& named) {
   });
 }
 
+// Hover tells that something is missing, not what.
+Judged in_hover(Judged verdict) {
+  if (verdict.status == "none") return verdict;
+  if (!verdict.effects.empty()) {
+    verdict.sentence = fmt::format("The nearest is {}.", fmt::join(verdict.effects, " with "));
+    verdict.confused_with = std::exchange(verdict.effects, {});
+  }
+  verdict.status = "unknown";
+  verdict.refused = true;
+  verdict.sentence +=
+      " These logs hold little more than hover, and that tells no cause: none was tried in full. Fly "
+      "doublets "
+      "or a multisine about every axis.";
+  return verdict;
+}
+
+// Values that only a cause would have that is not named are not known.
+void doubt_refused(std::vector<Parameter>& parameters, const SearchResult& search) {
+  for (Parameter& p : parameters)
+    for (const Candidate& c : search.best.adopted) {
+      if (c.name != "parameter:" + p.name && p.name.substr(0, p.name.find('.')) != c.name) continue;
+      p.identifiable = false;
+      p.note = "of a cause that is not named";
+    }
+}
+
 }  // namespace
 
 Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
@@ -122,9 +149,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
   require_turning(record.signals);
   const bool hover = std::ranges::find(tested, "hover_only", &Warning::code) != tested.end();
-  SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, options.progress};
-  const SearchResult search =
-      search_causes(record, hover ? held_for_hover(vehicle) : vehicle, p, search_options);
+  const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
+                                     options.progress};
+  const SearchResult search = search_causes(record, vehicle, p, search_options);
   for (const Warning& w : logs_agree(record, logs, *search.base.theta, search.base.fit))
     result.warnings.push_back(w), tested.push_back(w);
   if (options.progress) options.progress(0.9, "held-out flight");
@@ -163,24 +190,19 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
-  result.parameters = flight_parameters(best, search.best.fit, "gap");
+  FlightFit body = search.best.fit;
+  body.smoother.reset(), body.u = nearest_body(best, body);
+  result.parameters = flight_parameters(best, body, "gap");
+  warn_of_inertia(result, best, search.best.fit);
   if (hover) {  // what was held is known no better than before
     const std::vector<FreeConstant> known = free_constants(vehicle, p);
     std::vector<FreeConstant> held = known;
     as_before_flight(result.parameters, known, hold_for_hover(held));
   }
   Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
+  doubt_negative_dead_time(result);
   const std::string wrong = disqualified(tested);
-  if (hover && !verdict.effects.empty()) {
-    verdict.status = "unknown";
-    verdict.sentence = fmt::format(
-        "The nearest is {}, but these logs hold little more than hover, and that tells no cause: fly "
-        "doublets "
-        "or a multisine about every axis.",
-        fmt::join(verdict.effects, " with "));
-    verdict.confused_with = std::exchange(verdict.effects, {});
-    verdict.refused = true;
-  }
+  if (hover) verdict = in_hover(std::move(verdict));
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
@@ -196,6 +218,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return gap_closed(same_windows(a[1], c[0]), c[0]);
   };
   result.extra["candidates"] = causes_tried(search, closed_alone);
+  if (verdict.refused) doubt_refused(result.parameters, search);
   if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
   result.extra["gap"] = {{"before", number(gap.before)},

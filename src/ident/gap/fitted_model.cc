@@ -5,9 +5,12 @@
 
 #include "ident/core/error.h"
 #include "ident/effects/catalogue.h"
+#include "ident/estimators/flight_inertia.h"
 
 namespace ident {
 namespace {
+
+constexpr double kByChance = 2.0;  // standard deviations
 
 // An effect taken up that the fit drove beyond what it can physically be. A payload's place is the ratio of
 // two unknowns: where its mass is not seen it may be anywhere, and a verdict says so.
@@ -16,8 +19,10 @@ bool beyond_physics(const FittedModel& model) {
     const FreeConstant& c = model.constants[i];
     const EffectParameter* effect = find_effect_parameter(c.name);
     if (!c.adopted || !effect || c.name.starts_with("payload.")) continue;
-    const double value = model.theta->physical(model.fit.u, static_cast<int>(i));
-    if (std::abs(value - effect->null_value) > effect->limit) return true;
+    const int k = static_cast<int>(i);
+    const double beyond =
+        std::abs(model.theta->physical(model.fit.u, k) - effect->null_value) - effect->limit;
+    if (beyond > kByChance * model.theta->deviation(model.fit.u, k, model.fit.covariance)) return true;
   }
   return false;
 }
@@ -52,10 +57,12 @@ bool stands(const FittedModel& model) {
 Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
   Vehicle out = vehicle;
   const Theta& theta = *model.theta;
+  const Eigen::VectorXd u = nearest_body(theta, model.fit);
   for (int i = 0; i < theta.constants_count(); ++i) {
     const std::string& name = theta.constants()[static_cast<std::size_t>(i)].name;
-    out.parameters[name] = {theta.physical(model.fit.u, i),
-                            theta.deviation(model.fit.u, i, model.fit.covariance)};
+    const double value = theta.physical(u, i);
+    if (name == "dead_time" && value < 0) continue;  // of clocks, not of motors
+    out.parameters[name] = {value, theta.deviation(u, i, model.fit.covariance)};
   }
   for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
   return out;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ident/core/error.h"
+#include "ident/estimators/flight_hover.h"
 #include "ident/gap/next_cause.h"
 #include "ident/gap/wrong_lag.h"
 
@@ -88,6 +89,7 @@ class Search {
     tell(0.0, "the model as it is");
     std::vector<FreeConstant> base = free_constants(vehicle_, p_);
     if (!record_.signals.commands) leave_out_motors(base);
+    if (options_.hover) hold_for_hover(base);
     out_.base = fitted(base, {}, record_, p_, fit_);
     if (!stands(out_.base))
       throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");

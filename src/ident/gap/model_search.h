@@ -10,6 +10,7 @@ namespace ident {
 struct SearchOptions {
   std::vector<std::string> exclude;
   int most_causes;  ///< in the vehicle; how its sensor is mounted comes on top
+  bool hover;       ///< these logs hold little more than that: what it does not tell stays as known
   std::function<void(double, const std::string&)> progress;
 };
 

@@ -268,7 +268,7 @@ double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, i
   const Candidate& c = problem.candidates[static_cast<std::size_t>(candidate)];
   const int target = c.parameter >= 0 ? c.parameter : c.directions[static_cast<std::size_t>(direction)];
   std::vector<int> free = base_unknowns(form, problem);
-  if (c.parameter < 0) free.insert(free.end(), c.directions.begin(), c.directions.end());
+  if (c.parameter < 0) free.push_back(target);
   const auto m = static_cast<Eigen::Index>(free.size());
   MatrixXd M(m, m);
   Eigen::Index at = 0;

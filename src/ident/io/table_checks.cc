@@ -105,20 +105,23 @@ void expect_plausible(const NumberTable& table, const TableSchema& schema, long 
 TimeOrder time_order(const std::string& path, const std::vector<double>& t, const std::vector<long>& line) {
   TimeOrder order;
   double last = -std::numeric_limits<double>::infinity();
-  constexpr int kSetBack = 5;  // rows; fewer came late
+  constexpr int kSetBack = 5;          // rows; fewer came late
+  constexpr double kSetBackBy = 0.25;  // s; two rows that come late come less late
   int late = 0;
+  double back = 0;
+  const auto set_back = [&] { return late >= kSetBack || (late > 1 && back > kSetBackBy); };
   const auto count = [](long& number, long& first, long where) {
     if (number++ == 0) first = where;
   };
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (std::isnan(t[i])) {
       count(order.missing, order.first_missing, line[i]);
-    } else if (t[i] < last) {
+    } else if (t[i] < last || (t[i] == last && set_back())) {
       count(order.backward, order.first_backward, line[i]);
-      ++late;
+      ++late, back = std::max(back, last - t[i]);
     } else {
-      if (late >= kSetBack) order.breaks.push_back(last);
-      late = 0;
+      if (set_back()) order.breaks.push_back(last);
+      late = 0, back = 0;
       if (t[i] == last) count(order.repeated, order.first_repeated, line[i]);
       order.keep.push_back(i);
       last = t[i];

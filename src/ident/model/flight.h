@@ -11,7 +11,7 @@ namespace ident {
 
 /// Longest step of an estimator, s; longer ones between rows are split evenly. A command that changes within
 /// a step acts as a line over it: over 10 ms that puts a dead time off by a fiftieth.
-inline constexpr double kEstimatorStep = 4.1e-3;
+inline constexpr double kEstimatorStep = 4.6e-3;
 
 constexpr int kMaxRotors = 8;
 

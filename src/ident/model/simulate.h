@@ -2,7 +2,7 @@
 //
 //   SimulationOptions options;                       // mixed, 60 s, 250 Hz, typical noise
 //   options.noise = noise_level("none");
-//   options.longest_step = 0;                        // one step a row: the same integrator as an estimator
+//   options.longest_step = 0;                        // the same integrator as an estimator
 //   const SimulatedFlight flight = simulate_flight(vehicle, options);
 //   refine(flight.log); compare with flight.truth, row by row
 //
@@ -26,7 +26,7 @@ struct SimulationOptions {
   std::string scenario = "mixed";
   double duration = 60.0;      ///< s
   double rate = 250.0;         ///< rows, and commands, a second
-  double longest_step = 5e-4;  ///< of the integrator, s; 0: an estimator's, from row to row
+  double longest_step = 5e-4;  ///< of the integrator, s; 0: an estimator's
   std::uint64_t seed = 1;
   SensorNoise noise = noise_level("typical");
   LoggedSignals signals;
