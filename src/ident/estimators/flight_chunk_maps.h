@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "ident/estimators/dense_rows.h"
 #include "ident/estimators/flight_kernel.h"
 
 namespace ident::chunk {
@@ -23,5 +24,10 @@ inline Eigen::Map<const Eigen::VectorXd> g(const ChunkResult& r) {
 inline ConstRowMap E(const ChunkResult& r, int n) {
   return {r.E.data(), n, static_cast<Eigen::Index>(r.g.size())};
 }
+
+/// For products by the best instruction set; `column`: where they begin.
+inline Rows rows_of(RowMatrix& M, int column = 0) { return {M.data() + column, M.cols()}; }
+inline ConstRows rows_in(const RowMatrix& M, int column = 0) { return {M.data() + column, M.cols()}; }
+inline ConstRows rows_in(const ConstRowMap& M) { return {M.data(), M.cols()}; }
 
 }  // namespace ident::chunk

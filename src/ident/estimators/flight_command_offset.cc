@@ -1,4 +1,4 @@
-// The fit widened by the offset of the command.
+// Omega_0 beside the constants of a fit.
 #include "ident/estimators/flight_command_offset.h"
 
 #include <Eigen/Cholesky>
@@ -10,34 +10,37 @@ namespace ident {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool needs_command_offset(const Vehicle& vehicle, const FlightRecord& record, const Theta& theta,
-                          const FlightFit& fit) {
+namespace {
+
+constexpr double kHeld = 1e-6;  // of the unit step, a tenth of the speed at hover
+constexpr std::ptrdiff_t kFewBlocks = 8;
+constexpr double kBeyondDoubt = 25.0;  // fall of the cost: five standard deviations
+constexpr double kMatters = 1e-3;      // of the unit step: less is rounding
+
+}  // namespace
+
+void watch_command_offset(std::vector<FreeConstant>& constants, const Vehicle& vehicle,
+                          const FlightRecord& record, const std::vector<double>& p) {
   const auto is_offset = [](const FreeConstant& c) { return c.index == param::Omega_0; };
-  if (!record.signals.commands || vehicle.has("Omega_0") || std::ranges::any_of(theta.constants(), is_offset))
-    return false;
-  const std::vector<double> p = theta.p(fit.u);
-  std::vector<FreeConstant> constants = theta.constants();
-  for (FreeConstant& c : constants) c.start = p[static_cast<std::size_t>(c.index)];
+  if (!record.signals.commands || vehicle.has("Omega_0") || std::ranges::any_of(constants, is_offset)) return;
   const std::vector<FreeConstant> all = free_constants(vehicle, p, {"Omega_0"});
-  constants.push_back(*std::ranges::find_if(all, is_offset));
-  const Theta wider(p, constants, record.logs, record.signals.rates);
-  VectorXd u = VectorXd::Zero(wider.size());
-  const int biases = wider.size() - wider.constants_count();
-  u.tail(biases) = fit.u.tail(biases);
-  FlightSmoother smoother(record, wider, fit.noise, fit.chunk_seconds);
-  smoother.set_states(fit.smoother->states());
-  smoother.set_exact(true);  // the offset may hide in what single precision rounds away
-  FlightFit view;
-  view.u = u;
-  smoother.linearize(u);
-  smoother.accept();
-  view.blocks = smoother.score_blocks(2.0);
-  if (view.blocks.size() < 8) return false;
+  FreeConstant offset = *std::ranges::find_if(all, is_offset);
+  offset.watched = true;
+  offset.prior_value = offset.start, offset.prior_std = kHeld * offset.scale;
+  constants.push_back(offset);
+}
+
+bool shows_command_offset(const Theta& theta, const FlightFit& fit) {
+  const auto watched = std::ranges::find_if(theta.constants(), &FreeConstant::watched);
+  if (watched == theta.constants().end() || std::ssize(fit.blocks) < kFewBlocks) return false;
+  const auto at = watched - theta.constants().begin();
   // What the offset gains, over the factor by which coloured residuals spread the scores that it leaves.
-  const PriorTerms prior = wider.prior(u);
-  MatrixXd F = MatrixXd::Zero(u.size(), u.size()), H = prior.slope.cwiseAbs2().asDiagonal();
+  PriorTerms prior = theta.prior(fit.u);
+  prior.slope[at] = 0;
+  const Eigen::Index n = fit.u.size();
+  MatrixXd F = MatrixXd::Zero(n, n), H = prior.slope.cwiseAbs2().asDiagonal();
   VectorXd g = prior.slope.cwiseProduct(prior.residual);
-  for (const ScoreBlock& block : view.blocks) F += block.information, g += block.score;
+  for (const ScoreBlock& block : fit.blocks) F += block.information, g += block.score;
   H += F;
   const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
@@ -46,15 +49,13 @@ bool needs_command_offset(const Vehicle& vehicle, const FlightRecord& record, co
   const auto solved = [&](const VectorXd& x) {
     return VectorXd(s.asDiagonal() * solver.solve(s.asDiagonal() * x));
   };
-  const VectorXd direction = solved(VectorXd::Unit(u.size(), wider.constants_count() - 1));
+  const VectorXd direction = solved(VectorXd::Unit(n, at));
   double spread = 0;
   const VectorXd step = -solved(g);
-  for (const ScoreBlock& block : view.blocks)
+  for (const ScoreBlock& block : fit.blocks)
     spread += std::pow(direction.dot(block.score + block.information * step), 2);
   const double stretch = std::max(spread / direction.dot(F * direction), 1.0);
-  constexpr double kBeyondDoubt = 25.0;  // fall of the cost: five standard deviations
-  constexpr double kMatters = 1e-3;      // of the unit step, a tenth of the speed at hover: less is rounding
-  return g.dot(solved(g)) > kBeyondDoubt * stretch && std::abs(step[wider.constants_count() - 1]) > kMatters;
+  return g.dot(solved(g)) > kBeyondDoubt * stretch && std::abs(step[at]) > kMatters;
 }
 
 }  // namespace ident

@@ -6,9 +6,13 @@
 
 namespace ident {
 
+/// Adds Omega_0 to the constants of a fit, held at zero and watched: what the flight says against that comes
+/// with the fit. Not where the vehicle states Omega_0 or it is free.
+void watch_command_offset(std::vector<FreeConstant>& constants, const Vehicle& vehicle,
+                          const FlightRecord& record, const std::vector<double>& p);
+
 /// Whether the logs contradict a speed proportional to the command beyond any doubt: one Newton step from the
-/// fit with Omega_0 free, against its spread over blocks of time. False where the vehicle states Omega_0.
-bool needs_command_offset(const Vehicle& vehicle, const FlightRecord& record, const Theta& theta,
-                          const FlightFit& fit);
+/// fit with the watched Omega_0 free, against its spread over blocks of time.
+bool shows_command_offset(const Theta& theta, const FlightFit& fit);
 
 }  // namespace ident

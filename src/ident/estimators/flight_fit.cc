@@ -18,6 +18,9 @@ constexpr double kWorthAStep = 0.01;
 constexpr double kAsGoodAsThere = 1.0;
 // Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
 constexpr double kNearly = 0.3;
+// Change of a noise level at which it is known, and roughly known; rounds for the air's in each round.
+constexpr double kKnown = 0.03, kRoughly = 0.1;
+constexpr int kRetuned = 6, kFewRetuned = 3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 // A mean square of residuals, in variances, so large that the model is far from any minimum, and what is made
@@ -103,6 +106,7 @@ class Fitting {
     if (options_.estimate_noise) calm(*smoother_);
     TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
     if (options_.estimate_noise) first.max_steps = kFirstSteps;
+    if (options_.most_steps > 0) first.max_steps = std::min(first.max_steps, options_.most_steps);
     smoother_->set_gentle(true);
     trust_region(first);
   }
@@ -110,14 +114,14 @@ class Fitting {
   /// From where the fit of an excerpt ended; false where that is far from anything here.
   bool go_on_from(const Fitting& excerpt) {
     u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
-    restart(excerpt.smoother_->noise());
+    restart(excerpt.smoother_->noise(), 1);
     if (!(square_of(*smoother_) < kFar)) {
       u_.setZero(), axes_chosen_ = false, steps_ = 0;
       return false;
     }
     const NewtonStep step = newton_step(*smoother_, u_);
     if (step.fall < kNear * theta_.size() && theta_.possible(u_ + step.du)) u_ += step.du;
-    return true;
+    return gone_on_ = true;
   }
 
   /// Noise and unknowns in turn. Chunks may change in the first two rounds.
@@ -128,7 +132,8 @@ class Fitting {
       smoother_->accept();
       if (options_.robust) smoother_->set_huber(kHuber);
       const NoiseModel before = smoother_->noise();
-      const double change = update_noise(*smoother_, 6);
+      const double change =
+          update_noise(*smoother_, options_.rough_noise && gone_on_ ? kFewRetuned : kRetuned);
       const double wanted =
           options_.chunk_seconds > 0 ? chunk_ : chunk_for(record_, smoother_->noise(), options_.fine_gusts);
       if (round < 2 && (wanted > 1.5 * chunk_ || wanted < chunk_ / 1.5)) {
@@ -144,7 +149,8 @@ class Fitting {
       const NewtonStep step = newton_step(*smoother_, u_);
       promised_ = step.fall;
       smoother_->accept();
-      const bool done = !turned && (change < 0.03 || (round >= 5 && change < kNearly));
+      const bool done = !turned && (change < (options_.rough_noise ? kRoughly : kKnown) ||
+                                    (round >= 5 && change < kNearly));
       if (done && !(step.fall < kAsGoodAsThere)) break;
       if (step.fall < kNear && theta_.possible(u_ + step.du)) {
         u_ += step.du;
@@ -159,15 +165,18 @@ class Fitting {
   }
 
   FlightFit finish() {
+    if (gave_up()) return unfinished();
     smoother_->set_gentle(false);
-    const bool near = options_.exact && promised_ < kAsGoodAsThere;
+    const bool near = options_.exact && promised_ < kNear;  // one more step does it
     smoother_->set_exact(near);
     // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
     if (!finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
     if (!near) {
       const SharedMinimum at =
-          minimise_shared(*smoother_, u_, std::max(worth_a_step(*smoother_, options_), kWorthAStep));
+          minimise_shared(*smoother_, u_, std::max(worth_a_step(*smoother_, options_), kWorthAStep),
+                          options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
       u_ = at.u, steps_ += at.steps;
+      if (gave_up()) return unfinished();
     }
     FlightFit fit;
     fit.u = u_, fit.steps = steps_;
@@ -180,6 +189,12 @@ class Fitting {
   }
 
  private:
+  bool gave_up() const { return options_.most_steps > 0 && steps_ >= options_.most_steps; }
+  FlightFit unfinished() const {
+    FlightFit fit;
+    fit.u = u_, fit.steps = steps_, fit.noise = smoother_->noise(), fit.chunk_seconds = chunk_;
+    return fit;
+  }
   void start() {
     smoother_ = std::make_shared<FlightSmoother>(
         record_, theta_, options_.noise.value_or(initial_noise(record_)), chunk_, options_.threads);
@@ -189,10 +204,10 @@ class Fitting {
       smoother_->set_states(options_.near->states());
     smoother_->settle(u_, 1);
   }
-  void restart(const NoiseModel& noise) {
+  void restart(const NoiseModel& noise, int rounds = 2) {
     smoother_ = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
     smoother_->set_huber(options_.robust ? kHuber : 1e9);
-    smoother_->settle(u_, 2);
+    smoother_->settle(u_, rounds);
   }
   void trust_region(const TrustRegion& region) {
     const SharedMinimum at = by_trust_region(*smoother_, u_, region);
@@ -206,6 +221,7 @@ class Fitting {
   std::shared_ptr<FlightSmoother> smoother_;
   double chunk_ = 0.0, promised_ = kNaN;  // fall of the cost, when the noise was last looked at
   int steps_ = 0;
+  bool gone_on_ = false;                           // from an excerpt, which knew the noise
   bool axes_asked_ = false, axes_chosen_ = false;  // here; beyond doubt
 };
 

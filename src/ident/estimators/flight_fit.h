@@ -14,6 +14,8 @@ struct FlightFitOptions {
   bool estimate_noise = true;
   std::optional<NoiseModel> noise;  ///< to start from
   int noise_rounds = 10;
+  bool rough_noise = false;  ///< to a tenth is enough: models are compared under one common to them
+  int most_steps = 0;      ///< of the shared unknowns; a fit that needs more has not converged. 0: any number
   bool robust = true;      ///< count gross errors linearly
   bool fine_gusts = true;  ///< chunks so short that no gust within them passes for information on the vehicle
   bool choose_axes = true;     ///< whether gusts keep their direction in the world or turn with the vehicle

@@ -166,17 +166,24 @@ SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, c
   return {best.u, 2 * best.cost, steps};
 }
 
-SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, double enough) {
+SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, double enough,
+                              int most_steps) {
   SharedMinimum at{start};
+  const auto left_of = [&](int most) {
+    return most_steps > 0 ? std::min(most, most_steps - at.steps) : most;
+  };
   const auto trust_region = [&](double near) {
     const int before = at.steps;
-    at = by_trust_region(smoother, at.u, {.tolerance = enough, .near = near});
+    TrustRegion region{.tolerance = enough, .near = near};
+    region.max_steps = left_of(region.max_steps);
+    at = by_trust_region(smoother, at.u, region);
     at.steps += before;
   };
   double left = newton_steps(smoother, at, enough);
   // Where the model bends more than its slopes tell, steps promise what none of any length keeps.
   for (const double near : {kNear, 0.0}) {
     if (left < std::max(near, std::max(enough, kStuck))) continue;
+    if (left_of(1) < 1) break;
     const double before = at.cost;
     trust_region(near);
     if (!(before - at.cost > enough)) {

@@ -46,7 +46,8 @@ SharedMinimum by_trust_region(FlightSmoother& smoother, const Eigen::VectorXd& s
 /// The shared unknowns alone, states and noise as they are, from `start` to where no more than `enough` of a
 /// fall of the cost is promised: a trust region from afar, Newton's steps near the minimum. The smoother is
 /// linearised and accepted there.
-SharedMinimum minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& start, double enough);
+SharedMinimum minimise_shared(FlightSmoother& smoother, const Eigen::VectorXd& start, double enough,
+                              int most_steps = 0);
 
 /// Information of the priors; weak where there is none, which keeps undetermined directions in place.
 Eigen::MatrixXd prior_information(const Theta& theta, const Eigen::VectorXd& u);

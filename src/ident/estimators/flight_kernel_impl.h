@@ -163,8 +163,12 @@ class ChunkKernel {
           }
   }
 
-  // Leverage of each sample with respect to the local state: j P j'.
+  // Leverage of each sample with respect to the local state: j P j'. Where a channel has many, every
+  // third may stand for its neighbours.
   void leverages() {
+    constexpr int kEvery = 3, kMany = 30;
+    int seen[kChannels] = {}, taken[kChannels] = {};
+    double sum_of[kChannels] = {};
     const auto stride = static_cast<std::size_t>(packs_);
     const int n = task_.layout.size;
     AlignedCovariance* P = table<AlignedCovariance>(static_cast<std::size_t>(n) * stride);
@@ -174,6 +178,8 @@ class ChunkKernel {
       for (int b = 0; b < n; ++b) row[place_[b].at / 8][place_[b].at % 8] = task_.covariance[a * n + b];
     }
     for (std::size_t s = 0; s < samples_; ++s) {
+      const int c = sample_[s].channel;
+      if (task_.few_leverages && out_.count.data()[c] >= kMany && seen[c]++ % kEvery != kEvery / 2) continue;
       const Pack8* j = J_ + s * stride;
       Pack8 sum{};
       for (int a = 0; a < n; ++a) {
@@ -184,8 +190,10 @@ class ChunkKernel {
       }
       double total = 0;
       for (int k = 0; k < 8; ++k) total += sum[k];
-      out_.leverage[static_cast<std::size_t>(sample_[s].channel)] += total;
+      sum_of[c] += total, taken[c] += 1;
     }
+    for (int c = 0; c < kChannels; ++c)
+      if (taken[c] > 0) out_.leverage.data()[c] += sum_of[c] * (out_.count.data()[c] / taken[c]);
   }
 
   // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world

@@ -80,6 +80,7 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
   std::vector<Parameter> out;
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    if (c.watched) continue;
     Parameter p;
     p.name = c.name;
     p.value = theta.physical(fit.u, i);
@@ -218,9 +219,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     held = hold_for_hover(constants);
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
+  if (held.empty()) watch_command_offset(constants, vehicle, record, p);
   auto free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
   FlightFit fit = fit_flight(record, *free, fit_options);
-  if (held.empty() && needs_command_offset(vehicle, record, *free, fit)) {
+  if (shows_command_offset(*free, fit)) {
     result.warn(
         "command_offset",
         "the rotors' speed is not proportional to the command: Omega_0, their speed at command 0 as the "
@@ -252,7 +254,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
       levels[channel_name(c)] = fit.noise.sigma[static_cast<std::size_t>(c)];
   result.fit["noise"] = levels;
-  const int n = theta.constants_count();
+  const int n = static_cast<int>(result.parameters.size());
   for (int i = 0; i < n; ++i) result.correlation_names.push_back(theta.name(i));
   const VectorXd s = fit.covariance.diagonal().head(n).cwiseSqrt().cwiseInverse();
   result.correlation = s.asDiagonal() * fit.covariance.topLeftCorner(n, n) * s.asDiagonal();

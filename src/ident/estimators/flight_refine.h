@@ -29,7 +29,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
 /// model: RMS, fit in percent and Theil's inequality coefficient per channel.
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
 
-/// Shared by refinement and diagnosis: the estimates of a fit as parameters of a result.
+/// Shared by refinement and diagnosis: the estimates of a fit as parameters of a result, in the
+/// order of the constants; watched ones, which come last, are left out.
 std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit, const std::string& source);
 
 /// What the data tell only in combination, in words ("kT and km only as kT km^2").

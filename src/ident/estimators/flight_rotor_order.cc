@@ -23,6 +23,7 @@ namespace ident {
 namespace {
 
 constexpr double kClear = 0.3;            ///< r^2 that another order must reach about an axis
+constexpr double kHalf = 0.5;             ///< of what the other explains: the stated one may reach no more
 constexpr double kFewWindows = 60;        ///< too few to judge
 constexpr std::size_t kMostPermuted = 4;  ///< rotors; above, pairs only
 
@@ -139,13 +140,19 @@ std::vector<Order> orders(std::size_t rotors) {
   return out;
 }
 
+/// Explains so much about every axis that no other could be clearly better.
+bool plainly_right(const Hypothesis& h) {
+  return std::min({h.agreement(0), h.agreement(1), h.agreement(2)}) >= kHalf;
+}
+
 /// The stated order first, then that with reversed axes, then other orders.
 std::vector<Hypothesis> hypotheses(const Windows& windows, const Vehicle& vehicle,
                                    std::span<const double> p) {
   std::vector<Hypothesis> out;
   for (const Order& order : orders(vehicle.rotors.size())) {
-    Hypothesis h{order, {1, 1, 1}, correlation_of(windows, vehicle, p, order)};
     const bool stated = out.empty();
+    if (!stated && plainly_right(out[0])) break;
+    Hypothesis h{order, {1, 1, 1}, correlation_of(windows, vehicle, p, order)};
     for (unsigned reversed = 0; reversed < (stated ? 8u : 1u); ++reversed) {
       for (std::size_t k = 0; k < 3; ++k) h.sign[k] = (reversed >> k & 1) ? -1.0 : 1.0;
       out.push_back(h);
@@ -161,8 +168,8 @@ bool clearly_better(const Hypothesis& other, const Hypothesis& stated) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double a = other.agreement(k), b = stated.agreement(k);
     if (a < 0.7 * b || a < -0.1) return false;
-    clear += a > kClear, gained += a > kClear && b < 0.5 * a;
-    if (b < 0.5 * a) top = std::max(top, a);
+    clear += a > kClear, gained += a > kClear && b < kHalf * a;
+    if (b < kHalf * a) top = std::max(top, a);
   }
   return gained > 0 && (clear > 1 || top > 0.6) && other.total() > stated.total() + kClear;
 }

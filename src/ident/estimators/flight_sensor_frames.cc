@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "ident/core/parallel.h"
 #include "ident/estimators/flight_changes.h"
 #include "ident/estimators/flight_motion.h"
 #include "ident/estimators/flight_self_test.h"
@@ -38,25 +39,24 @@ struct Agreement {
 
 Agreement agreement(const FlightRecord& record, double lag, const MakePairs& make) {
   const ChangeWindows windows = change_windows(lag, record.interval);
-  Agreement best;
-  for (long step = -2; step <= 2; ++step) {
+  std::array<Agreement, 5> at_shift;
+  in_parallel(at_shift.size(), [&](std::size_t s) {
     Pairs all;
+    const long shift = (static_cast<long>(s) - 2) * static_cast<long>(windows.margin) / 2;
     for (const FlightArc& arc : record.arcs) {
       if (arc.rows() < 2) continue;
-      const Pairs one = make(arc, windows, step * static_cast<long>(windows.margin) / 2);
+      const Pairs one = make(arc, windows, shift);
       append(all.seen, one.seen), append(all.told, one.told);
     }
-    if (all.seen[0].size() < kFewWindows) return best;
-    const Eigen::Matrix3d c = correlations(all.seen, all.told);
-    if (c.norm() <= best.c.norm()) continue;
-    best.c = c;
+    if (all.seen[0].size() < kFewWindows) return;
+    const Eigen::Matrix3d c = at_shift[s].c = correlations(all.seen, all.told);
     for (std::size_t k = 0; k < 3; ++k) {
       const double told = mad_scale(all.told[k]);
       const auto i = static_cast<Eigen::Index>(k);
-      best.slope[i] = told > 0 ? c(i, i) * mad_scale(all.seen[k]) / told : 0.0;
+      at_shift[s].slope[i] = told > 0 ? c(i, i) * mad_scale(all.seen[k]) / told : 0.0;
     }
-  }
-  return best;
+  });
+  return *std::ranges::max_element(at_shift, {}, [](const Agreement& a) { return a.c.norm(); });
 }
 
 Track3 changes_of(const Track3& x, const ChangeWindows& windows, long shift) {

@@ -134,10 +134,10 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
     ChunkTask one = task(k, u, p, seeds);
     one.weight = weight.data();
     one.jacobian = jacobian;
-    one.exact = exact_;
+    one.exact = exact_, one.few_leverages = true;
     chunk::RowMatrix covariance;
     if (leverage) {
-      covariance = accepted().P[k];
+      covariance = accepted().P[k].leftCols(record_->layout.size);
       one.covariance = covariance.data();
     }
     evaluate_chunk(one, results_[k]);
@@ -202,7 +202,8 @@ void FlightSmoother::predict(const VectorXd& u) {
   steps_.resize(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
     steps_[k] = -(accepted().f[k] + accepted().B[k].leftCols(du.size()) * du);
-    if (places_[k].linked) steps_[k] -= accepted().G[k] * steps_[k + 1];
+    if (places_[k].linked)
+      steps_[k].noalias() -= accepted().Gt[k].leftCols(steps_[k].size()).transpose() * steps_[k + 1];
     trial_[k] = moved(states_[k], steps_[k]);
   }
 }
@@ -241,14 +242,12 @@ void FlightSmoother::accept() {
   accepted_at_ = last_at_;
 }
 
-// Ends before the last round where one has changed nothing to speak of.
-void FlightSmoother::settle(const VectorXd& u, int rounds) {
-  constexpr double kSettled = 1e-4;  // of the cost
+void FlightSmoother::settle(const VectorXd& u, int rounds, double enough) {
   double before = 0;
   for (int i = 0; i < rounds; ++i) {
     const double cost = linearize(u).cost;
     accept();
-    if (i > 0 && std::abs(before - cost) < kSettled * cost) return;
+    if (i > 0 && std::abs(before - cost) < enough * cost) return;
     before = cost;
   }
 }
@@ -260,7 +259,7 @@ std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
     if (places_[k].linked) continue;
     // Not linked further on: D holds all that is known of this state from the past.
     const MatrixXd E = chunk::E(results_[k], n).leftCols(n);
-    ends.push_back({results_[k].x_end, E * accepted().P[k] * E.transpose()});
+    ends.push_back({results_[k].x_end, E * accepted().P[k].leftCols(n) * E.transpose()});
   }
   return ends;
 }

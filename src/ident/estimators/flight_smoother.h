@@ -71,8 +71,9 @@ class FlightSmoother {
   bool stands_at(const Eigen::VectorXd& u) const { return stands_ && u == trial_u_; }
   /// Makes the last linearisation the one from which states are predicted from now on.
   void accept();
-  /// Moves the states to their best for u (`rounds` Gauss-Newton steps) and accepts.
-  void settle(const Eigen::VectorXd& u, int rounds = 2);
+  /// Moves the states to their best for u (`rounds` Gauss-Newton steps, fewer where one has changed less than
+  /// that share of the cost) and accepts.
+  void settle(const Eigen::VectorXd& u, int rounds = 2, double enough = 1e-4);
 
   /// Takes over states, from a smoother with the same chunks.
   void set_states(const std::vector<FlightState<double>>& states) {
@@ -93,8 +94,9 @@ class FlightSmoother {
   /// Residual moments of the last linearisation, which was asked for leverages.
   Moments moments() const;
   /// Process noise that makes the last linearisation most likely (expectation maximisation, `rounds` steps),
-  /// and the states eliminated under it; gives the largest relative change of a standard deviation.
-  double retune(int rounds);
+  /// and the states eliminated under it if asked for; gives the largest relative change of a standard
+  /// deviation.
+  double retune(int rounds, bool eliminated = true);
   /// Minus twice the log likelihood of the noise, states integrated out and shared unknowns at their optimum,
   /// by the last elimination; without the constant that only the measurements set.
   double surprise() const;
@@ -136,10 +138,10 @@ class FlightSmoother {
 
  private:
   // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). P is the covariance of x_k from the arc before the next
-  // chunk or, once `smoothed`, from all of it; `cross` that of x_k and x_(k+1). Shared unknowns are held in
-  // both.
+  // chunk or, once `smoothed`, from all of it; `cross` that of x_(k+1) and x_k. Shared unknowns are held in
+  // both. Rows are padded; Gt is G transposed.
   struct Elimination {
-    std::vector<Eigen::MatrixXd> G, B, P, cross;
+    std::vector<chunk::RowMatrix> Gt, B, P, cross;
     std::vector<Eigen::VectorXd> f;
     bool smoothed = false;
   };
@@ -170,7 +172,7 @@ class FlightSmoother {
   void add_link(std::size_t k, ArcElimination& arc, const Eigen::VectorXd* held) const;
   Eigen::VectorXd shared_optimum() const;
   std::vector<Eigen::VectorXd> state_steps(const Eigen::VectorXd& du) const;
-  std::vector<Eigen::MatrixXd> state_slopes() const;
+  std::vector<chunk::RowMatrix> state_slopes() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void set_axes();
   void posterior_covariances(Elimination& el) const;

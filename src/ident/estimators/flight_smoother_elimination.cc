@@ -10,6 +10,8 @@
 
 namespace ident {
 
+using chunk::rows_in;
+using chunk::rows_of;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -33,10 +35,6 @@ struct FlightSmoother::ArcElimination {
         solved(Matrix::Zero(n, from + shared + from)),
         sum(Matrix::Zero(m, shared)) {}
 
-  static Rows rows(Matrix& M, int column = 0) { return {M.data() + column, static_cast<int>(M.cols())}; }
-  static ConstRows rows(const Matrix& M, int column = 0) {
-    return {M.data() + column, static_cast<int>(M.cols())};
-  }
   auto D() { return own.leftCols(n); }
   auto B() { return own.middleCols(from, m); }
   auto f() { return own.col(from + m); }
@@ -95,11 +93,11 @@ void FlightSmoother::add_link(std::size_t k, ArcElimination& arc, const VectorXd
   arc.WE.leftCols(n) = W.asDiagonal() * arc.E.leftCols(n);
   arc.WE.middleCols(arc.from, m) = W.asDiagonal() * arc.E.middleCols(arc.from, m);
   arc.WE.col(arc.from + m) = W.cwiseProduct(d);
-  const auto E = [&](int column) { return ArcElimination::rows(std::as_const(arc.E), column); };
-  const auto WE = [&](int column) { return ArcElimination::rows(std::as_const(arc.WE), column); };
+  const auto E = [&](int column) { return rows_in(arc.E, column); };
+  const auto WE = [&](int column) { return rows_in(arc.WE, column); };
   const DenseRows& dense = dense_rows();
-  dense.add_products(ArcElimination::rows(arc.own), E(0), n, WE(0), arc.from + arc.shared, n, 1.0);
-  dense.add_products(ArcElimination::rows(arc.sum), E(arc.from), m, WE(arc.from), arc.shared, n, 1.0);
+  dense.add_products(rows_of(arc.own), E(0), n, WE(0), arc.from + arc.shared, n, 1.0);
+  dense.add_products(rows_of(arc.sum), E(arc.from), m, WE(arc.from), arc.shared, n, 1.0);
   arc.cost += d.dot(W.cwiseProduct(d));
   arc.log_det -= W.array().log().sum();
   arc.U.leftCols(n) = -arc.WE.leftCols(n).transpose();
@@ -115,7 +113,7 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
   ArcElimination arc(n, m, all);
   const int from = arc.from, right = from + arc.shared;
   const DenseRows& dense = dense_rows();
-  const auto solved = [&](int column) { return ArcElimination::rows(std::as_const(arc.solved), column); };
+  const auto solved = [&](int column) { return rows_in(arc.solved, column); };
   for (std::size_t k = begin; k < end; ++k) {
     const ChunkResult& r = results_[k];
     const chunk::ConstRowMap A = chunk::A(r);
@@ -150,15 +148,19 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     arc.solved.leftCols(from) = arc.U;
     arc.solved.middleCols(from, arc.shared) = arc.own.rightCols(arc.shared);
     arc.solved.middleCols(right, n).setIdentity();
-    dense.forward(ArcElimination::rows(L), n, ArcElimination::rows(arc.solved), right + from);
-    dense.add_products(ArcElimination::rows(arc.sum), solved(from), m, solved(from), arc.shared, n, -1.0);
+    dense.forward(rows_in(L), n, rows_of(arc.solved), right + from);
+    dense.add_products(rows_of(arc.sum), solved(from), m, solved(from), arc.shared, n, -1.0);
     arc.cost -= arc.solved.col(from + m).squaredNorm();
-    if (linked) dense.add_products(ArcElimination::rows(arc.next), solved(0), n, solved(0), right, n, -1.0);
-    dense.backward(ArcElimination::rows(L), n, ArcElimination::rows(arc.solved), right + from);
-    if (linked) el.G[k] = arc.solved.leftCols(n);
-    el.B[k] = arc.solved.middleCols(from, m);
+    if (linked) dense.add_products(rows_of(arc.next), solved(0), n, solved(0), right, n, -1.0);
+    dense.backward(rows_in(L), n, rows_of(arc.solved), right + from);
+    if (linked) {
+      el.Gt[k].setZero(n, from);
+      el.Gt[k].leftCols(n) = arc.solved.leftCols(n).transpose();
+    }
+    el.B[k] = arc.solved.middleCols(from, padded(m));
+    el.B[k].rightCols(padded(m) - m).setZero();
     el.f[k] = arc.solved.col(from + m);
-    el.P[k] = arc.solved.middleCols(right, n);
+    el.P[k] = arc.solved.middleCols(right, from);
   }
   sum = {arc.cost, arc.g(), arc.S(), arc.log_det};
 }
@@ -168,7 +170,7 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
   const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;
-  el.G.resize(K), el.B.resize(K), el.f.resize(K), el.P.resize(K), el.cross.resize(K);
+  el.Gt.resize(K), el.B.resize(K), el.f.resize(K), el.P.resize(K), el.cross.resize(K);
   el.smoothed = false;
   std::vector<ReducedSystem> parts(arcs);
   in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a], held); });
@@ -185,11 +187,15 @@ void FlightSmoother::eliminate(const VectorXd* held) {
 void FlightSmoother::posterior_covariances(Elimination& el) const {
   if (el.smoothed) return;
   el.smoothed = true;
+  const int n = record_->layout.size;
+  const DenseRows& dense = dense_rows();
   in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
     for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
       if (!places_[k].linked) continue;
-      el.cross[k].noalias() = -el.G[k] * el.P[k + 1];
-      el.P[k].noalias() -= el.cross[k] * el.G[k].transpose();
+      el.cross[k].setZero(n, padded(n));
+      dense.add_products(rows_of(el.cross[k]), rows_in(el.P[k + 1]), n, rows_in(el.Gt[k]), padded(n), n,
+                         -1.0);
+      dense.add_products(rows_of(el.P[k]), rows_in(el.cross[k]), n, rows_in(el.Gt[k]), padded(n), n, -1.0);
     }
   });
 }
@@ -214,19 +220,24 @@ std::vector<VectorXd> FlightSmoother::state_steps(const VectorXd& du) const {
   std::vector<VectorXd> dx(places_.size());
   for (std::size_t k = places_.size(); k-- > 0;) {
     dx[k] = -el.f[k];
-    if (el.B[k].cols() > 0) dx[k].noalias() -= el.B[k] * du;
-    if (places_[k].linked) dx[k].noalias() -= el.G[k] * dx[k + 1];
+    if (el.B[k].cols() > 0) dx[k].noalias() -= el.B[k].leftCols(du.size()) * du;
+    if (places_[k].linked) dx[k].noalias() -= el.Gt[k].leftCols(dx[k].size()).transpose() * dx[k + 1];
   }
   return dx;
 }
 
-// Derivative of the accepted states, at their best, over the shared unknowns.
-std::vector<MatrixXd> FlightSmoother::state_slopes() const {
-  std::vector<MatrixXd> dX(places_.size());
-  for (std::size_t k = places_.size(); k-- > 0;) {
-    dX[k] = -accepted().B[k];
-    if (places_[k].linked) dX[k].noalias() -= accepted().G[k] * dX[k + 1];
-  }
+// Derivative of the accepted states, at their best, over the shared unknowns; rows are padded.
+std::vector<chunk::RowMatrix> FlightSmoother::state_slopes() const {
+  const int n = record_->layout.size, m = padded(static_cast<int>(shared()));
+  const DenseRows& dense = dense_rows();
+  std::vector<chunk::RowMatrix> dX(places_.size());
+  in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
+    for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
+      dX[k] = -accepted().B[k];
+      if (places_[k].linked)
+        dense.add_products(rows_of(dX[k]), rows_in(accepted().Gt[k]), n, rows_in(dX[k + 1]), m, n, -1.0);
+    }
+  });
   return dX;
 }
 

@@ -8,6 +8,8 @@
 
 namespace ident {
 
+using chunk::rows_in;
+using chunk::rows_of;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -19,6 +21,7 @@ constexpr double kSlowest = 4.0;
 // The shared unknowns, which noise moves little and which make elimination twice as dear, are held for so
 // many rounds.
 constexpr int kHeld = 4;
+constexpr Index kManyShared = 40;     // of the causes of a diagnosis
 constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
 // A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
 constexpr double kNothing = 1e-11;
@@ -80,13 +83,13 @@ double FlightSmoother::surprise() const {
   return sum;
 }
 
-double FlightSmoother::retune(int rounds) {
+double FlightSmoother::retune(int rounds, bool eliminated) {
   const StateLayout& layout = record_->layout;
   const int n = layout.size;
   double change = 0;
   VectorXd du;
   for (int round = 0; round < rounds; ++round) {
-    const bool again = round < 3 || round % kHeld == 0;
+    const bool again = round % kHeld == 0 || round == 2 || (round == 1 && shared() < kManyShared);
     if (round > 0) eliminate(again ? nullptr : &du);
     if (again) du = shared_optimum();
     Elimination& el = last();
@@ -115,7 +118,8 @@ double FlightSmoother::retune(int rounds) {
       for (int r = layout.motors; r < layout.motors + layout.rotors; ++r) {
         const VectorXd e = E.row(r).head(n).transpose();
         const double left = d[r] + e.dot(dx[k]) + E.row(r).tail(theta_->size()).dot(du) - dx[k + 1][r];
-        const double V = e.dot(el.P[k] * e) - 2 * e.dot(el.cross[k].col(r)) + el.P[k + 1](r, r);
+        const double V =
+            e.dot(el.P[k].leftCols(n) * e) - 2 * el.cross[k].row(r).head(n).dot(e) + el.P[k + 1](r, r);
         motors += W[r] * left * left, motors_determined += 1 - W[r] * V, links += 1;
       }
     }
@@ -132,7 +136,10 @@ double FlightSmoother::retune(int rounds) {
     }
     if (change < 0.01) break;
   }
-  eliminate();
+  if (eliminated)
+    eliminate();
+  else
+    eliminated_ = false;
   return change;
 }
 
@@ -140,9 +147,9 @@ FlightSmoother::Along FlightSmoother::along(const VectorXd& du) {
   constexpr double kShare = 1e-3;  // of the step, to either side
   const std::size_t K = places_.size();
   const Index n = record_->layout.size, from = padded(record_->layout.size);
-  const std::vector<MatrixXd> dX = state_slopes();
+  const std::vector<chunk::RowMatrix> dX = state_slopes();
   std::vector<VectorXd> dx(K);
-  for (std::size_t k = 0; k < K; ++k) dx[k] = dX[k] * du;
+  for (std::size_t k = 0; k < K; ++k) dx[k] = dX[k].leftCols(du.size()) * du;
   Along out{{}, {}, std::vector<VectorXd>(K), std::vector<VectorXd>(K), std::vector<VectorXd>(K)};
   chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + shared());
   for (std::size_t k = 0; k < K; ++k) {
@@ -168,9 +175,11 @@ FlightSmoother::Along FlightSmoother::along(const VectorXd& du) {
 }
 
 std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
-  const Index n = record_->layout.size, own = theta_->size(), m = shared();
+  const int n = record_->layout.size, own = theta_->size(), m = static_cast<int>(shared());
+  const int from = padded(n), columns = padded(m);
+  const DenseRows& dense = dense_rows();
   const std::size_t K = places_.size();
-  const std::vector<MatrixXd> dX = state_slopes();
+  const std::vector<chunk::RowMatrix> dX = state_slopes();
   std::vector<ScoreBlock> blocks;
   std::vector<std::size_t> begin;  // first chunk of each block, and the end
   for (std::size_t k = 0; k < K; ++k) {
@@ -178,37 +187,44 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     const FlightArc& arc = record_->arcs[static_cast<std::size_t>(place.arc)];
     if (blocks.empty() || blocks.back().arc != place.arc ||
         blocks.back().to - blocks.back().from >= seconds) {
-      blocks.push_back({place.arc, arc.t[place.begin], 0.0, VectorXd::Zero(m), MatrixXd::Zero(m, m)});
+      blocks.push_back({place.arc, arc.t[place.begin], 0.0, {}, {}});
       begin.push_back(k);
     }
     blocks.back().to = arc.t[place.end];
   }
   begin.push_back(K);
   in_parallel(blocks.size(), [&](std::size_t b) {
-    VectorXd& score = blocks[b].score;
-    MatrixXd& F = blocks[b].information;
-    chunk::RowMatrix E = chunk::RowMatrix::Zero(n, padded(static_cast<int>(n)) + m);
-    MatrixXd T(n + m, m);
-    T.bottomRows(m).setIdentity();
+    VectorXd score = VectorXd::Zero(columns);
+    chunk::RowMatrix F = chunk::RowMatrix::Zero(m, columns), AT(n + own, columns), WS(n, columns);
+    chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + columns), Et(n, n), slope(n, columns);
+    chunk::RowMatrix T = chunk::RowMatrix::Zero(n + own, columns);  // profiles act through links only
+    T.bottomRows(own).leftCols(own).setIdentity();
     for (std::size_t k = begin[b]; k < begin[b + 1]; ++k) {
       T.topRows(n) = dX[k];
-      const auto near = T.topRows(n + own);  // profiles act through links only
-      score.noalias() += near.transpose() * chunk::g(results_[k]);
-      F.noalias() += near.transpose() * MatrixXd(chunk::A(results_[k]) * near);
+      score.noalias() += T.transpose() * chunk::g(results_[k]);
+      AT.setZero();
+      dense.add_products(rows_of(AT), rows_in(chunk::A(results_[k])), n + own, rows_in(T), columns, n + own,
+                         1.0);
+      dense.add_products(rows_of(F), rows_in(T), m, rows_in(AT), columns, n + own, 1.0);
+      const auto add = [&](const VectorXd& W, const VectorXd& d) {
+        score.noalias() += slope.transpose() * W.cwiseProduct(d);
+        WS = W.asDiagonal() * slope;
+        dense.add_products(rows_of(F), rows_in(slope), m, rows_in(WS), columns, n, 1.0);
+      };
       if (k == 0 || !places_[k - 1].linked) {
-        const VectorXd info = start_information(k);
-        MatrixXd slope = dX[k];
-        if (m > own) slope.rightCols(m - own) -= profile(k);
-        score.noalias() += slope.transpose() * info.cwiseProduct(outside(k));
-        F.noalias() += slope.transpose() * MatrixXd(info.asDiagonal() * slope);
+        slope = dX[k];
+        if (m > own) slope.middleCols(own, m - own) -= profile(k);
+        add(start_information(k), outside(k));
       }
       if (!places_[k].linked) continue;
-      const VectorXd W = link_weight(k);
       link_slope(k, E);
-      const MatrixXd slope = E.leftCols(n) * dX[k] + E.middleCols(padded(static_cast<int>(n)), m) - dX[k + 1];
-      score.noalias() += slope.transpose() * W.cwiseProduct(defect(k));
-      F.noalias() += slope.transpose() * MatrixXd(W.asDiagonal() * slope);
+      Et = E.leftCols(n).transpose();
+      slope = E.rightCols(columns) - dX[k + 1];
+      dense.add_products(rows_of(slope), rows_in(Et), n, rows_in(dX[k]), columns, n, 1.0);
+      add(link_weight(k), defect(k));
     }
+    blocks[b].score = score.head(m);
+    blocks[b].information = F.leftCols(m);
   });
   return blocks;
 }

@@ -20,6 +20,7 @@ struct FreeConstant {
   std::optional<double> prior_std;  ///< about `prior_value`
   double prior_value = 0.0;
   bool adopted = false;  ///< belongs to a cause that a diagnosis took up, not to the model as stated
+  bool watched = false;  ///< held where it is; only what the flight says against that is looked at
   /// Slot of another free constant: what moves on its own is the product with that (a payload's moment, not
   /// its place), value = (start + scale u) start_other / other.
   int times = -1;

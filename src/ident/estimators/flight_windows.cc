@@ -9,6 +9,7 @@ namespace ident {
 namespace {
 
 constexpr int kRounds = 30;  // until states are at their best: many where no rates or attitude were logged
+constexpr double kAtTheirBest = 1e-3;  // of the cost
 
 // The rows [begin, end) of an arc as an arc of its own, with the gyro bias taken off.
 FlightArc piece(const FlightArc& arc, std::size_t begin, std::size_t end, const std::array<double, 3>& bias) {
@@ -51,7 +52,7 @@ FlightWindows::FlightWindows(const FlightRecord& record, const Theta& theta, con
   fixed_ = std::make_unique<Theta>(p_, std::vector<FreeConstant>{}, 1, false);
   smoother_ = std::make_unique<FlightSmoother>(
       past_, *fixed_, noise, std::clamp(chunk_for(record, noise), 0.04, 0.4), options.threads);
-  smoother_->settle(Eigen::VectorXd(0), kRounds);
+  smoother_->settle(Eigen::VectorXd(0), kRounds, kAtTheirBest);
   ends_ = smoother_->arc_ends();
 }
 

@@ -31,6 +31,8 @@ constexpr double kAlmostNever = 0.03;
 constexpr double kNotRuledOut = 1e-3;
 constexpr std::size_t kAlternatives = 4;
 constexpr double kLess = 0.9;
+// Steps that the fit of another set may take; that of a right one takes three to seven.
+constexpr int kAlternativeSteps = 20;
 
 // One search: adds causes step by step, and exchanges them where their weights speak against them.
 class Search {
@@ -43,6 +45,7 @@ class Search {
     fit_.fine_gusts = false;   // sets are compared under a dispersion that is common to them
     fit_.choose_axes = false;  // a force that the model lacks would choose them
     fit_.exact = false;        // only what is found in the end has to be
+    fit_.rough_noise = true;
     fit_.tolerance_of_misfit = kOfMisfit;
   }
 
@@ -286,7 +289,9 @@ class Search {
     std::string names;
     for (const int c : causes) names += (names.empty() ? "" : ", ") + described(candidate(c));
     tell(0.1, names);
-    FittedModel model = with_causes(record_, vehicle_, now_, causes, fit_);
+    FlightFitOptions brief = fit_;  // what flies as well as the set found is found as soon
+    brief.most_steps = kAlternativeSteps;
+    FittedModel model = with_causes(record_, vehicle_, now_, causes, brief);
     if (!stands(model)) return {};
     Standing there = at(std::move(model));
     const std::vector<int> before = places_of(now_.model.adopted, there.problem);

@@ -115,7 +115,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   const int biases = theta.size() - theta.constants_count();
   u.tail(biases) = fit.u.tail(biases);
   smoother.linearize(u);  // the states are at their best already
-  smoother.retune(10);
+  smoother.retune(10, false);
   smoother.set_profiles(gust_arm(record, smoother, theta.p(u)));
   smoother.relinearize();
   const ReducedSystem& system = smoother.reduced();

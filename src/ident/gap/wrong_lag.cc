@@ -14,6 +14,7 @@ constexpr double kAsStated = 3.0;
 constexpr double kSeen = 100.0;     // a cause that gains less is no reason to hold the lag
 constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
 constexpr double kSlowest = 2.0;    // rad/s: below it the commands no longer move the model's rotors
+constexpr int kMostSteps = 20;      // of its fit: a right one takes five to twelve
 constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
 
 double total_cost(FlightSmoother& smoother, const Theta& theta, const Eigen::VectorXd& u) {
@@ -33,20 +34,18 @@ bool off(const FittedModel& model, int index, double deviations) {
 
 // The stated value times a factor at which the flight fits best with all else as stated; NaN where it flies
 // with none.
-double best_start(const FlightRecord& record, const std::vector<double>& p,
-                  const std::vector<FreeConstant>& constants, int which, const NoiseModel& noise,
+double best_start(const FlightRecord& record, const std::vector<double>& p, const NoiseModel& noise,
                   double chunk_seconds) {
   double best = kNaN, least = 1e300;
   for (const double factor : kFactors) {
-    std::vector<FreeConstant> there = constants;
-    FreeConstant& c = there[static_cast<std::size_t>(which)];
-    c.start *= factor, c.prior_std.reset();
-    const Theta theta(p, there, record.logs, record.signals.rates);
+    std::vector<double> there = p;
+    there[param::omega_m] *= factor;
+    const Theta theta(there, {}, record.logs, record.signals.rates);
     FlightSmoother smoother(record, theta, noise, chunk_seconds);
     const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
     smoother.settle(u, 2);
     const double cost = total_cost(smoother, theta, u);
-    if (cost < least) least = cost, best = c.start;
+    if (cost < least) least = cost, best = there[param::omega_m];
   }
   return best;
 }
@@ -83,10 +82,11 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   FlightFitOptions again = options;
   again.noise = form.noise, again.estimate_noise = false;
   again.chunk_seconds = at_hand.fit.chunk_seconds;
+  again.most_steps = kMostSteps;
   std::vector<FreeConstant> constants = at_hand.constants;
   for (FreeConstant& c : constants) c.start = p[static_cast<std::size_t>(c.index)];
   FreeConstant& omega_m = constants[static_cast<std::size_t>(cause->parameter)];
-  omega_m.start = best_start(record, p, constants, cause->parameter, form.noise, again.chunk_seconds);
+  omega_m.start = best_start(record, p, form.noise, again.chunk_seconds);
   if (!std::isfinite(omega_m.start)) return {};
   std::vector<Candidate> causes = at_hand.adopted;
   causes.push_back(*cause);
