@@ -267,7 +267,8 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
   linearize_at(smoother, fit.u);
   smoother.accept();
   if (exact) {
-    const SharedMinimum at = minimise_shared(smoother, fit.u, worth_a_step(smoother, options));
+    const SharedMinimum at =
+        minimise_shared(smoother, fit.u, worth_a_step(smoother, options), options.most_steps);
     fit.u = at.u, fit.steps += at.steps;
   }
   fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();

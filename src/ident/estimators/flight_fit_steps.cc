@@ -87,11 +87,11 @@ class SharedResiduals {
 // Newton's steps where they are near the minimum, until less than `enough` is promised; gives the fall that
 // is left. It is this promise that judges a step: the cost is known only up to what the states gain by a step
 // of their own, and near the minimum that is more than the shared unknowns do.
-double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough) {
+double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough, int most_steps) {
   linearize_at(smoother, at.u);
   smoother.accept();
   NewtonStep step = newton_step(smoother, at.u);
-  for (int i = 0; i < kMostSteps && step.fall > enough && step.fall < kNear; ++i) {
+  for (int i = 0; i < most_steps && step.fall > enough && step.fall < kNear; ++i) {
     const VectorXd next = at.u + step.du;
     if (!smoother.theta().possible(next)) break;
     smoother.linearize(next);
@@ -179,7 +179,7 @@ SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, d
     at = by_trust_region(smoother, at.u, region);
     at.steps += before;
   };
-  double left = newton_steps(smoother, at, enough);
+  double left = newton_steps(smoother, at, enough, left_of(kMostSteps));
   // Where the model bends more than its slopes tell, steps promise what none of any length keeps.
   for (const double near : {kNear, 0.0}) {
     if (left < std::max(near, std::max(enough, kStuck))) continue;
@@ -191,7 +191,7 @@ SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, d
       smoother.accept();
       break;
     }
-    left = newton_steps(smoother, at, enough);
+    left = newton_steps(smoother, at, enough, left_of(kMostSteps));
   }
   return at;
 }

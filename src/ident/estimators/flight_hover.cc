@@ -31,6 +31,10 @@ bool needs_motion(int index) {
 
 }  // namespace
 
+bool is_hover(std::span<const Warning> findings) {
+  return std::ranges::find(findings, "hover_only", &Warning::code) != findings.end();
+}
+
 std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants) {
   std::vector<std::string> held;
   for (FreeConstant& c : constants) {

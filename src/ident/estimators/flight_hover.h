@@ -10,6 +10,9 @@
 
 namespace ident {
 
+/// Whether a self-test found little more than hover.
+bool is_hover(std::span<const Warning> findings);
+
 /// Holds the constants of motors and inertia, which no hover tells: free, they would be fitted to the noise
 /// of one initial transient. Gives their names.
 std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants);

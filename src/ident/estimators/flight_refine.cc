@@ -215,8 +215,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (!record.signals.commands) leave_out_motors(constants);
   const std::vector<FreeConstant> known = constants;
   std::vector<std::string> held;
-  if (std::ranges::find(tested, "hover_only", &Warning::code) != tested.end())
-    held = hold_for_hover(constants);
+  if (is_hover(tested)) held = hold_for_hover(constants);
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
   if (held.empty()) watch_command_offset(constants, vehicle, record, p);

@@ -109,8 +109,7 @@ Judged in_hover(Judged verdict) {
   verdict.refused = true;
   verdict.sentence +=
       " These logs hold little more than hover, and that tells no cause: none was tried in full. Fly "
-      "doublets "
-      "or a multisine about every axis.";
+      "doublets or a multisine about every axis.";
   return verdict;
 }
 
@@ -148,7 +147,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return out;
   }
   require_turning(record.signals);
-  const bool hover = std::ranges::find(tested, "hover_only", &Warning::code) != tested.end();
+  const bool hover = is_hover(tested);
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
                                      options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);

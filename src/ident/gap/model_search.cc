@@ -31,6 +31,8 @@ constexpr double kAlmostNever = 0.03;
 constexpr double kNotRuledOut = 1e-3;
 constexpr std::size_t kAlternatives = 4;
 constexpr double kLess = 0.9;
+// Steps that a fit may take: what needs more has no minimum to speak of.
+constexpr int kMostSteps = 40;
 // Steps that the fit of another set may take; that of a right one takes three to seven.
 constexpr int kAlternativeSteps = 20;
 
@@ -46,6 +48,7 @@ class Search {
     fit_.choose_axes = false;  // a force that the model lacks would choose them
     fit_.exact = false;        // only what is found in the end has to be
     fit_.rough_noise = true;
+    fit_.most_steps = kMostSteps;
     fit_.tolerance_of_misfit = kOfMisfit;
   }
 
@@ -93,7 +96,9 @@ class Search {
     std::vector<FreeConstant> base = free_constants(vehicle_, p_);
     if (!record_.signals.commands) leave_out_motors(base);
     if (options_.hover) hold_for_hover(base);
-    out_.base = fitted(base, {}, record_, p_, fit_);
+    FlightFitOptions patient = fit_;  // there is no other base
+    patient.most_steps = 0;
+    out_.base = fitted(base, {}, record_, p_, patient);
     if (!stands(out_.base))
       throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
     tell(0.05, "every cause");
