@@ -173,7 +173,8 @@ TEST(Verdict, FourCausesInTheVehicleAreNoAnswerThoughNothingElseExplainsIt) {
 }
 
 TEST(Verdict, HowTheSensorIsMountedIsNamedOnTopOfThree) {
-  Case c({"rotor_drag", "wind", "ground_effect", "imu_bias", "imu_lever_arm", "axial_inflow"},
+  Case c({"rotor_drag", "wind", "ground_effect", "imu_bias", "imu_lever_arm", "axial_inflow",
+          "translational_lift", "rotor_tilt"},
          {"wind", "ground_effect", "imu_bias"});
   c.weighs({1, 2, 3}, 0.6);
   c.weighs({1, 2, 4}, 0.4);
@@ -183,7 +184,29 @@ TEST(Verdict, HowTheSensorIsMountedIsNamedOnTopOfThree) {
   c.search.sets[0].members = {1, 2, 3, 5};
   c.search.sets[1].members = {0, 2, 4, 5};
   c.search.best.adopted.push_back({"axial_inflow"});
+  EXPECT_EQ(c.judged().status, "ambiguous");  // between wind and drag alone
+  c.search.sets[1].members = {0, 4, 6, 7};
   EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, WhatIsCertainIsNamedBesideWhatIsLeftOpen) {
+  Case c({"battery_sag", "cg_offset", "payload", "rotor_tilt", "products_of_inertia", "rotor_mismatch"},
+         {"battery_sag", "cg_offset"});
+  c.weighs({0, 1}, 0.6), c.weighs({0, 2}, 0.25), c.weighs({0, 3}, 0.15);
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "ambiguous");
+  EXPECT_EQ(seen.effects, (Names{"battery_sag", "cg_offset"}));
+  EXPECT_EQ(seen.confused_with, (Names{"payload", "rotor_tilt"}));
+  EXPECT_NE(seen.sentence.find("but in place of cg_offset payload or rotor_tilt would"), std::string::npos)
+      << seen.sentence;
+  c.weighs({0, 4}, 0.1);  // four of which it may be any
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(Verdict, TheDragByWhichWindActsIsNoRivalOfIt) {
+  Case c({"rotor_drag", "wind", "rotor_tilt"}, {"rotor_drag", "wind"});
+  c.weighs({0, 1}, 0.8), c.weighs({0, 2}, 0.2);
+  EXPECT_EQ(c.judged().confused_with, Names{"rotor_tilt"});
 }
 
 TEST(Verdict, WithoutACauseAContradictedBenchValueIsAGap) {

@@ -24,6 +24,7 @@ class ChunkRun {
   ChunkRun(const ChunkTask& task, std::span<const S> p, EffectMask effects, const S* bias)
       : task_(task), effects_(p, effects), flight_(*task.vehicle, p, effects_, *task.inputs), bias_(bias) {
     flight_.feel_outside(task.layout.w_dot >= 0);
+    flight_.step_to_order(task.order);
   }
 
   /// Attitude at the row that was handed to the sink last (specific force, velocity, position).

@@ -32,6 +32,8 @@ constexpr double kHeldChunk = 0.2, kSureChunk = 0.1;  // lengths of the first ch
 // are most of a fit, and few are left once it is nearly known.
 constexpr double kLong = 30.0, kExcerpt = 15.0, kStretch = 4.0;
 constexpr double kLeastShare = 0.1, kMostShare = 0.25;
+// Fall of the cost that an integrator of lower order may feign.
+constexpr double kOfOrder = 1.0;
 constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise bring that down again
 
 using Eigen::MatrixXd;
@@ -43,6 +45,12 @@ bool finite(const ReducedSystem& system) { return std::isfinite(system.cost) && 
 double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options) {
   const double missed = smoother.reduced().cost - samples_of(smoother.record());
   return std::max(options.tolerance, options.tolerance_of_misfit * missed);
+}
+
+// `order`: of steps without exact slopes.
+void set_exact(FlightSmoother& smoother, bool exact, int order) {
+  smoother.set_exact(exact);
+  smoother.set_order(exact ? 4 : order);
 }
 
 // Mean square of the residuals, in variances.
@@ -93,7 +101,11 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
 class Fitting {
  public:
   Fitting(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options)
-      : record_(record), theta_(theta), options_(options), u_(VectorXd::Zero(theta.size())) {}
+      : record_(record),
+        theta_(theta),
+        options_(options),
+        u_(VectorXd::Zero(theta.size())),
+        order_(options.order) {}
 
   /// From what was measured and stated.
   void begin() {
@@ -114,6 +126,7 @@ class Fitting {
   /// From where the fit of an excerpt ended; false where that is far from anything here.
   bool go_on_from(const Fitting& excerpt) {
     u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
+    order_ = excerpt.order_;
     restart(excerpt.smoother_->noise(), 1);
     if (!(square_of(*smoother_) < kFar)) {
       u_.setZero(), axes_chosen_ = false, steps_ = 0;
@@ -164,11 +177,19 @@ class Fitting {
     }
   }
 
+  /// Whether there is so little noise that the integrator's order shows. It is 4 from then on.
+  bool order_shows() {
+    if (order_ == 4 || !(smoother_->worth_of_order() > kOfOrder)) return false;
+    order_ = 4;
+    smoother_->set_order(order_);
+    return true;
+  }
+
   FlightFit finish() {
     if (gave_up()) return unfinished();
     smoother_->set_gentle(false);
     const bool near = options_.exact && promised_ < kNear;  // one more step does it
-    smoother_->set_exact(near);
+    set_exact(*smoother_, near, order_);
     // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
     if (!finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
     if (!near) {
@@ -198,6 +219,7 @@ class Fitting {
   void start() {
     smoother_ = std::make_shared<FlightSmoother>(
         record_, theta_, options_.noise.value_or(initial_noise(record_)), chunk_, options_.threads);
+    smoother_->set_order(order_);
     // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
     smoother_->set_huber(options_.estimate_noise || !options_.robust ? 1e9 : kHuber);
     if (options_.near && options_.near->chunks().size() == smoother_->chunks().size())
@@ -206,6 +228,7 @@ class Fitting {
   }
   void restart(const NoiseModel& noise, int rounds = 2) {
     smoother_ = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
+    smoother_->set_order(order_);
     smoother_->set_huber(options_.robust ? kHuber : 1e9);
     smoother_->settle(u_, rounds);
   }
@@ -219,6 +242,7 @@ class Fitting {
   const FlightFitOptions& options_;
   VectorXd u_;
   std::shared_ptr<FlightSmoother> smoother_;
+  int order_;
   double chunk_ = 0.0, promised_ = kNaN;  // fall of the cost, when the noise was last looked at
   int steps_ = 0;
   bool gone_on_ = false;                           // from an excerpt, which knew the noise
@@ -248,12 +272,16 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         Fitting first(excerpt, theta, options);
         first.begin();
         first.find_noise(tell(0.1, 0.4));
+        first.order_shows();
         begun = fitting.go_on_from(first);
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }
   }
   if (!begun) fitting.begin();
-  if (options.estimate_noise) fitting.find_noise(tell(0.4, 0.8));
+  if (options.estimate_noise) {
+    fitting.find_noise(tell(0.4, 0.8));
+    if (!begun && fitting.order_shows()) fitting.find_noise(tell(0.6, 0.8));
+  }
   FlightFit fit = fitting.finish();
   tell(0, 1)(1.0);
   return fit;
@@ -261,16 +289,16 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
 
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
   FlightSmoother& smoother = *fit.smoother;
-  smoother.set_exact(options.exact);
+  const int order = smoother.order();
+  set_exact(smoother, options.exact, order);
   const bool exact = options.exact || !finite(linearize_at(smoother, fit.u));  // too coarse for these
-  smoother.set_exact(exact);
+  set_exact(smoother, exact, order);
   linearize_at(smoother, fit.u);
   smoother.accept();
-  if (exact) {
-    const SharedMinimum at =
-        minimise_shared(smoother, fit.u, worth_a_step(smoother, options), options.most_steps);
-    fit.u = at.u, fit.steps += at.steps;
-  }
+  const double worth = worth_a_step(smoother, options);
+  const SharedMinimum at =
+      minimise_shared(smoother, fit.u, exact ? worth : std::max(worth, kWorthAStep), options.most_steps);
+  fit.u = at.u, fit.steps += at.steps;
   fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
   fit.information = smoother.reduced().S;
   const MatrixXd prior = prior_information(theta, fit.u);

@@ -22,7 +22,8 @@ struct FlightFitOptions {
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
   double tolerance_of_misfit = 0.0;  ///< the same as a share of the cost beyond that of noise alone
-  bool exact = true;                 ///< ends with slopes in double precision, for which see finish_fit
+  bool exact = true;  ///< ends with slopes in double precision, and steps of order 4: see finish_fit
+  int order = 4;      ///< of the integrator's steps until then; 3, at half the cost, where that does not show
   std::shared_ptr<const FlightSmoother> near;  ///< of a like model, whose states to start from
   int threads = 0;
   std::function<void(double)> progress;  ///< share done
@@ -46,8 +47,8 @@ struct FlightFit {
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
 /// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
-/// Slopes are exact if asked for: where links let next to no noise through, the rounding of single precision
-/// would pass for information. For a fit that was made with a larger tolerance.
+/// Slopes are exact if asked for, and steps of order 4: where links let next to no noise through, the
+/// rounding of single precision would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
 /// The shared unknowns as the first `training_share` of every arc would have them: one Newton step from the

@@ -134,7 +134,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
     ChunkTask one = task(k, u, p, seeds);
     one.weight = weight.data();
     one.jacobian = jacobian;
-    one.exact = exact_, one.few_leverages = true;
+    one.order = order_, one.exact = exact_, one.few_leverages = true;
     chunk::RowMatrix covariance;
     if (leverage) {
       covariance = accepted().P[k].leftCols(record_->layout.size);
@@ -271,6 +271,20 @@ std::vector<std::vector<double>> FlightSmoother::residuals() {
   std::vector<std::vector<double>> all;
   for (const ChunkResult& r : results_) all.push_back(r.residuals);
   return all;
+}
+
+double FlightSmoother::worth_of_order() {
+  const int present = order_;
+  std::array<std::vector<std::vector<double>>, 2> by;
+  for (std::size_t i = 0; i < 2; ++i) {
+    order_ = (i == 1) == (present == 3) ? 3 : 4;  // the present one last
+    by[i] = residuals();
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < by[0].size(); ++k)
+    for (std::size_t i = 0; i < by[0][k].size(); ++i)
+      if (const double d = by[0][k][i] - by[1][k][i]; std::isfinite(d)) sum += d * d;
+  return sum;
 }
 
 std::vector<VectorXd> FlightSmoother::defects() const {

@@ -151,7 +151,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
                                      options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);
-  for (const Warning& w : logs_agree(record, logs, *search.base.theta, search.base.fit))
+  // What a cause explains, logs need not agree on without it: a battery at another charge.
+  for (const Warning& w : logs_agree(record, logs, *search.best.theta, search.best.fit))
     result.warnings.push_back(w), tested.push_back(w);
   if (options.progress) options.progress(0.9, "held-out flight");
 

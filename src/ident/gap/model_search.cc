@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "ident/core/error.h"
 #include "ident/estimators/flight_hover.h"
+#include "ident/gap/generic_rival.h"
 #include "ident/gap/next_cause.h"
 #include "ident/gap/wrong_lag.h"
 
@@ -31,6 +33,9 @@ constexpr double kAlmostNever = 0.03;
 constexpr double kNotRuledOut = 1e-3;
 constexpr std::size_t kAlternatives = 4;
 constexpr double kLess = 0.9;
+// What a regression predicts by more than chance, and the share of it that a missing cause leaves to it.
+constexpr double kPredicted = 60.0;
+constexpr double kMostOfIt = 0.5;
 // Steps that a fit may take: what needs more has no minimum to speak of.
 constexpr int kMostSteps = 40;
 // Steps that the fit of another set may take; that of a right one takes three to seven.
@@ -46,8 +51,9 @@ class Search {
     fit_.noise_rounds = 4;
     fit_.fine_gusts = false;   // sets are compared under a dispersion that is common to them
     fit_.choose_axes = false;  // a force that the model lacks would choose them
-    fit_.exact = false;        // only what is found in the end has to be
+    fit_.exact = false;        // to a small share of a standard deviation is enough
     fit_.rough_noise = true;
+    fit_.order = 3;
     fit_.most_steps = kMostSteps;
     fit_.tolerance_of_misfit = kOfMisfit;
   }
@@ -65,7 +71,7 @@ class Search {
       if (further(now_, now_.have, c).passes()) out_.ran_away.push_back(described(candidate(c)));
     out_.sets = weighed_sets(now_);
     out_.alone = steps_here();
-    fit_.exact = true, fit_.tolerance_of_misfit = 0;
+    fit_.tolerance_of_misfit = 0;
     finish_fit(now_.model.fit, *now_.model.theta, fit_);
     out_.best = std::move(now_.model);
     out_.asked = asked_by_channels(out_.best);
@@ -101,6 +107,7 @@ class Search {
     out_.base = fitted(base, {}, record_, p_, patient);
     if (!stands(out_.base))
       throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
+    fit_.order = out_.base.fit.smoother->order();
     tell(0.05, "every cause");
     now_ = at(out_.base);
     if (lag_pulled_far(out_.base)) {
@@ -193,12 +200,13 @@ class Search {
         if (mounting || !is_of_mounting(s.name)) gain += s.gain;
       return gain;
     };
-    const auto is_drag = [](const Candidate& c) {
-      return c.name == "rotor_drag" || c.name == "parasitic_drag";
+    // Drag and what comes with it, wind that acts by it or rotors that flap as they drag, are one.
+    const auto has = [&](std::initializer_list<const char*> names) {
+      const auto is_it = [&](const Candidate& c) { return std::ranges::find(names, c.name) != names.end(); };
+      return is_it(cause) || std::ranges::any_of(now_.model.adopted, is_it);
     };
-    // Wind and the drag by which it acts are one.
-    const bool with_drag = cause.name == "wind" && std::ranges::any_of(now_.model.adopted, is_drag);
-    const int found = static_cast<int>(out_.steps.size()) - (with_drag ? 1 : 0);
+    const bool in_one = has({"rotor_drag", "parasitic_drag"}) && has({"wind", "blade_flapping"});
+    const int found = static_cast<int>(out_.steps.size()) - (in_one ? 1 : 0);
     const double gain = sum(out_.steps);
     return is_material(next, cause, found, found > 1 && !mounting ? std::max(gain, sum(steps_here())) : gain);
   }
@@ -336,10 +344,21 @@ class Search {
     too_little_.push_back(cause);
     tell(0.1, described(cause));
     auto trial = tried_in_full(record_, vehicle_, options_.exclude, now_, next.candidate, fit_);
-    if (!trial || !trial->own.passes() || !explains_its_share(trial->own, cause)) return false;
+    if (!trial || !trial->own.passes()) return false;
+    if (!explains_its_share(trial->own, cause) && !leaves_nothing_to_predict(trial->at)) return false;
     const double gain = trial->own.honest();
     adopt(cause, std::move(*trial), gain);
     return true;
+  }
+
+  // Beside a strong cause a true one is a small share of what is explained, and most of what is left: of what
+  // a regression on the flight still predicts.
+  bool leaves_nothing_to_predict(const Standing& there) const {
+    const auto predicted = [&](const Standing& at) {
+      return generic_rival(record_, *at.model.theta, at.model.fit, at.form.noise).total();
+    };
+    const double before = predicted(now_);
+    return before > kPredicted && predicted(there) < kMostOfIt * before;
   }
 
   // The most that any further cause would explain.

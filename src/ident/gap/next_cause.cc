@@ -16,6 +16,9 @@ constexpr double kMaterial = 0.04;
 // A second one that changes from one part of the flight to the next explains at least this.
 constexpr double kUneven = 5.0;
 constexpr double kNextToNothing = 0.01;
+// One that gains little explains this share of what was found.
+constexpr double kLittle = 60.0;
+constexpr double kOfLittle = 2e-3;
 // A bench value that is wrong by the same in all parts of the flight, and gains so much.
 constexpr double kEven = 1.5;
 constexpr double kPlainlyWrong = 100.0;
@@ -51,8 +54,9 @@ NextCause next_cause(const Standing& at, const std::function<bool(int)>& barred,
 // is no form of anything.
 bool is_material(const Further& next, const Candidate& cause, int found, double explained) {
   const double gain = next.honest();
-  const bool wrong = cause.parameter >= 0 && next.stretch < kEven && gain > kPlainlyWrong;
-  if (found >= kFew) return wrong || gain >= kMaterial * explained;
+  const bool even = cause.parameter >= 0 && next.stretch < kEven;
+  if (found >= kFew) return (even && gain > kPlainlyWrong) || gain >= kMaterial * explained;
+  if (!even && gain < kLittle && gain < kOfLittle * explained) return false;
   return moves_mass(cause) || next.stretch < kUneven || gain >= kNextToNothing * explained;
 }
 

@@ -26,8 +26,10 @@ constexpr double kTold = 0.05;
 // Times the noise floor of what is missed on held-out flight with no cause found: in 400 flights without one
 // the most was 1.53.
 constexpr double kAboveFloor = 2.0;
-// An answer of more names than this, those of how the sensor is mounted apart, is none.
+// An answer of more names than this, those of how the sensor is mounted apart, is none, nor one that leaves
+// open which of more it is.
 constexpr std::ptrdiff_t kMostNames = 3;
+constexpr double kLeftOpen = 0.95;  // of a cause no more probable than that
 // Slower motors, s of lag, no multirotor flies with: a model that asks for them has left the commands aside.
 constexpr double kSlowestLag = 0.2;
 // And none swings with less damping: such a one does the work of something else.
@@ -119,11 +121,15 @@ std::vector<std::string> likely(const SearchResult& search) {
 }
 
 // Names of sets that explain the gap about as well and hold another cause than those found; `own` becomes the
-// probability of the sets that hold these. One with a further cause beside them is no rival.
+// probability of the sets that hold these. One with a further cause beside them is no rival, and what the
+// model holds in any case, as the drag by which wind acts, is none.
 std::vector<std::string> in_their_place(const SearchResult& search, const std::vector<std::string>& effects,
                                         double& own) {
   std::vector<std::string> others;
   const std::set<std::string> named(effects.begin(), effects.end());
+  const auto held = [&](const std::string& n) {
+    return std::ranges::find(search.best.adopted, n, &Candidate::name) != search.best.adopted.end();
+  };
   for (const WeighedSet& set : search.sets) {
     std::vector<Candidate> members;
     for (const int m : set.members) members.push_back(search.problem.candidates[static_cast<std::size_t>(m)]);
@@ -133,7 +139,7 @@ std::vector<std::string> in_their_place(const SearchResult& search, const std::v
       own += set.probability;
     } else if (set.probability > kTold) {
       for (const std::string& n : names)
-        if (!named.contains(n) && std::ranges::find(others, n) == others.end()) others.push_back(n);
+        if (!held(n) && std::ranges::find(others, n) == others.end()) others.push_back(n);
     }
   }
   return others;
@@ -175,6 +181,8 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
     others.emplace_back("cg_offset");
   const std::string found = fmt::format("{}", fmt::join(out.effects, " and "));
   const std::vector<std::string> effects_found = out.effects;
+  std::vector<std::string> open = out.effects;
+  std::erase_if(open, [&](const std::string& n) { return search.probability_of(n) > kLeftOpen; });
   if (of_vehicle(out.effects) > kMostNames) {
     out.sentence = fmt::format(
         "A gap is there that only {} together explain: so many would fit almost anything, and each needs a "
@@ -185,7 +193,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
   } else if (others.empty()) {
     out.status = "identified";
     out.sentence = fmt::format("The gap is explained by {}.", found);
-  } else if (of_vehicle(out.effects) + of_vehicle(others) > kMostNames) {
+  } else if (std::max<std::ptrdiff_t>(of_vehicle(open), 1) + of_vehicle(others) > kMostNames) {
     out.sentence = fmt::format(
         "A gap is there of which these logs do not tell the cause: {} explain it, but {} would about as "
         "well.",
@@ -193,7 +201,9 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
     out.confused_with = std::exchange(out.effects, {});
   } else {
     out.status = "ambiguous";
-    out.sentence = fmt::format("The gap is explained by {}, but {} would explain it about as well.", found,
+    const bool part = !open.empty() && open.size() < out.effects.size();
+    out.sentence = fmt::format("The gap is explained by {}, but {}{} would explain it about as well.", found,
+                               part ? fmt::format("in place of {} ", fmt::join(open, " and ")) : "",
                                fmt::join(others, " or "));
   }
   out.confused_with.insert(out.confused_with.end(), others.begin(), others.end());
