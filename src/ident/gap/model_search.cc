@@ -39,7 +39,7 @@ constexpr double kMostOfIt = 0.5;
 // Steps that a fit may take: what needs more has no minimum to speak of.
 constexpr int kMostSteps = 40;
 // Steps that the fit of another set may take; that of a right one takes three to seven.
-constexpr int kAlternativeSteps = 20;
+constexpr int kAlternativeSteps = 12;
 
 // One search: adds causes step by step, and exchanges them where their weights speak against them.
 class Search {
