@@ -5,8 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/core/error.h"
+#include "ident/estimators/flight_commands_agree.h"
 #include "ident/estimators/flight_record.h"
 #include "ident/estimators/flight_refine.h"
+#include "ident/estimators/statistics.h"
 #include "support/known_quad.h"
 
 namespace ident {
@@ -174,6 +177,40 @@ TEST(FlightFindings, SpeedsServeForAllLogsWhereOneHasNoCommands) {
   EXPECT_TRUE(result.has_warning("commands_left_out"));
   EXPECT_EQ(result.find("omega_m"), nullptr);
   EXPECT_LT(std::abs(off(result, "Jxx", truth)), 4.0);
+}
+
+// Commands that stand at one limit or the other: no lag makes speeds of these. What the speeds tell stays.
+TEST(FlightFindings, SpeedsServeWhereTheyContradictTheCommands) {
+  const Vehicle truth = quad();
+  FlightLog log = flight(truth, 100, 1, 20);
+  EXPECT_FALSE(commands_contradict_speeds(log));
+  FlightLog swapped = log;
+  std::swap(swapped.delta[0], swapped.delta[2]);
+  std::swap(swapped.delta[1], swapped.delta[3]);
+  EXPECT_FALSE(commands_contradict_speeds(swapped));  // that is a wrong order
+  const double hover = median(log.delta[0]);
+  for (auto& column : log.delta)
+    for (double& delta : column) delta = delta > hover ? 1.0 : 0.0;
+  ASSERT_TRUE(commands_contradict_speeds(log));
+  const Result result = refine_flight(known(truth), std::span(&log, 1), {.validate = false});
+  EXPECT_TRUE(result.has_warning("commands_contradict_speeds"));
+  EXPECT_EQ(result.find("omega_m"), nullptr);
+  EXPECT_LT(std::abs(off(result, "kT", truth)), 4.0);
+  EXPECT_LT(std::abs(off(result, "Jxx", truth)), 4.0);
+  std::vector<FlightLog> logs{log, flight(truth, 100, 2, 20)};
+  logs[1].Omega.clear();
+  EXPECT_THROW(refine_flight(known(truth), logs, {.validate = false}), DataError);
+}
+
+// Speeds that do nothing but shake say nothing of commands.
+TEST(FlightFindings, SpeedsThatHardlyChangeContradictNothing) {
+  const Vehicle truth = quad();
+  FlightLog log = hover(truth, 20);
+  Random random(3);
+  log.Omega.assign(4, std::vector<double>(log.t.size()));
+  for (auto& column : log.Omega)
+    for (double& Omega : column) Omega = 940 + random.normal();
+  EXPECT_FALSE(commands_contradict_speeds(log));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_commands_agree.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_streams.h"
 
@@ -24,18 +25,37 @@ double mean_of_used(const std::vector<double>& column) {
 // Commands of all logs or of none: where those of one are missing, or were left out as not the right ones,
 // rotor speeds serve as input for all. Empty where nothing has to be changed.
 std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::vector<Warning>& warnings) {
-  const auto commanded = std::ranges::count_if(logs, &FlightLog::has_commands);
-  if (commanded == 0 || commanded == std::ssize(logs) ||
-      !std::ranges::all_of(logs, &FlightLog::has_rotor_speeds))
+  const std::size_t before = warnings.size();
+  std::vector<bool> commands;
+  for (const FlightLog& log : logs) {
+    const bool contradict = log.has_commands() && commands_contradict_speeds(log);
+    if (contradict)
+      warnings.push_back(
+          {"commands_contradict_speeds",
+           fmt::format(
+               "{}: no rotor turns as any of the commands says, whatever the motors' lag: commands or "
+               "rotor speeds are not what they are said to be; the speeds are taken, and nothing is "
+               "said of the motors",
+               log.file)});
+    commands.push_back(log.has_commands() && !contradict);
+  }
+  const auto commanded = std::ranges::count(commands, true);
+  const bool none = std::ranges::none_of(logs, &FlightLog::has_commands);
+  if (none || commanded == std::ssize(logs)) return {};
+  if (!std::ranges::all_of(logs, &FlightLog::has_rotor_speeds)) {
+    if (warnings.size() > before)
+      throw DataError(warnings.back().message + "; another log has none: give that alone");
     return {};
+  }
   std::vector<FlightLog> out(logs.begin(), logs.end());
   for (FlightLog& log : out) log.delta.clear();
-  const auto without = std::ranges::find_if_not(logs, &FlightLog::has_commands);
-  warnings.push_back(
-      {"commands_left_out",
-       fmt::format("{} has no usable commands: rotor speeds serve as input for all logs, and of "
-                   "the motors nothing is said; give the others alone for that",
-                   without->file)});
+  const auto without = logs.begin() + (std::ranges::find(commands, false) - commands.begin());
+  if (commanded > 0)
+    warnings.push_back(
+        {"commands_left_out",
+         fmt::format("{} has no usable commands: rotor speeds serve as input for all logs, and of "
+                     "the motors nothing is said; give the others alone for that",
+                     without->file)});
   return out;
 }
 
