@@ -62,6 +62,14 @@ TEST(NextCause, AThirdOneExplainsItsShareOrIsABenchValueWrongByTheSameEverywhere
   EXPECT_FALSE(is_material(gaining(90, 1.0), wrong, 2, 1e4));
 }
 
+TEST(NextCause, WhatGainsLittleBesideSomethingVeryStrongIsItsForm) {
+  const Candidate wrong{"parameter:omega_m", {}, 3}, effect{"thrust_curve", {4, 5}};
+  EXPECT_TRUE(is_material(gaining(50, 1.0), effect, 1, 2e4));
+  EXPECT_FALSE(is_material(gaining(50, 1.0), effect, 1, 3e4));
+  EXPECT_TRUE(is_material(gaining(70, 1.0), effect, 1, 1e6));
+  EXPECT_TRUE(is_material(gaining(50, 1.0), wrong, 1, 1e6));
+}
+
 TEST(NextCause, ASecondOneThatChangesExplainsMoreThanNextToNothing) {
   const Candidate effect{"gyroscopic", {4}}, moves{"cg_offset", {5, 6, 7}};
   EXPECT_TRUE(is_material(gaining(90, 4.0), effect, 1, 1e4));

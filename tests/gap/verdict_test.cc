@@ -19,6 +19,9 @@ TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   EXPECT_EQ(c.judged().status, "unknown");
   c.jumps = {{"Mz", 0, 5, 8.0, 3.0}};  // gusts do that by a drag that is known
   EXPECT_EQ(c.judged().status, "none");
+  EXPECT_NE(c.judged().sentence.find("Moments about the yaw axis jump, most at 3 s of log 1"),
+            std::string::npos)
+      << c.judged().sentence;
   c.jumps.clear();
   c.lines.push_back({"az", 36.0, 20.0, 0.3});
   EXPECT_EQ(c.judged().status, "unknown");
@@ -36,10 +39,23 @@ TEST(Verdict, WhatIsHardlyThereBesideAStrongCauseIsNotNamed) {
   c.weighs({0}, 0.95);
   c.weighs({0, 1}, 0.05);
   EXPECT_EQ(c.judged().effects, Names{"motor_asymmetry"});
+  EXPECT_NE(c.judged().sentence.find("holds sensor_delay as well, which is hardly there"), std::string::npos)
+      << c.judged().sentence;
   c.search.sets.clear();
   c.weighs({0}, 0.6);
   c.weighs({0, 1}, 0.4);
   EXPECT_EQ(c.judged().effects, (Names{"motor_asymmetry", "sensor_delay"}));
+}
+
+TEST(Verdict, WithoutACauseThatCouldBeTriedTheLikelyOnesAreTold) {
+  Case c({"rotor_drag", "wind", "payload"}, {});
+  c.weighs({}, 0.5), c.weighs({1}, 0.3), c.weighs({0}, 0.18), c.weighs({2}, 0.02);
+  EXPECT_TRUE(c.judged().confused_with.empty());
+  c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "unknown");
+  EXPECT_TRUE(seen.effects.empty());
+  EXPECT_EQ(seen.confused_with, (Names{"wind", "rotor_drag"}));
 }
 
 TEST(Verdict, ACauseBesideTheOneFoundIsNoRivalAndOneInItsPlaceIs) {

@@ -119,6 +119,31 @@ void expect_same_motion(const FlightState<double>& a, const FlightState<double>&
   EXPECT_LT((a.body.q_WB - b.body.q_WB).norm(), 1e-9) << who;
 }
 
+// Half the step makes a quarter and a sixteenth of the error.
+TEST(Laws, StepsConvergeAsTheirOrderSays) {
+  const NoEffects none;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Vehicle vehicle = random_vehicle(seed);
+    std::vector<double> p = parameter_vector(vehicle);
+    p[param::dead_time] = 0.0;  // commands change between steps
+    const FlightInputs inputs = restless_commands(vehicle.rotors.size());
+    const auto turned = [&](int order, int steps) {
+      Flight<double> flight(vehicle, p, none, inputs);
+      flight.step_to_order(order);
+      FlightState<double> x = moving_state(p, vehicle.rotors.size());
+      BodyRate<double> rate = flight.rate(x, 0.0);
+      const double h = 0.5 / steps;
+      for (int i = 0; i < steps; ++i) flight.step_on(x, i * h, h, rate);
+      return x.body.w_B;
+    };
+    const Vector exact = turned(4, 3200);
+    for (const int order : {2, 4}) {
+      const double coarse = (turned(order, 100) - exact).norm(), fine = (turned(order, 200) - exact).norm();
+      EXPECT_NEAR(std::log2(coarse / fine), order, 0.5) << vehicle.name;
+    }
+  }
+}
+
 // Erratum 7: what no flight log can tell.
 TEST(Laws, ScalingMassInertiaAndRotorConstantsTogetherChangesNoMotion) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -66,7 +66,7 @@ struct ChunkTask {
   bool few_leverages = false;          ///< those of every third sample stand for their neighbours
   bool exact = false;                  ///< slopes in double precision, at twice the cost
   const double* covariance = nullptr;  ///< of the local state, to compute leverages; or nullptr
-  int order = 4;                       ///< of the steps; 3 at half the cost
+  int order = 4;                       ///< of the steps; 2 at half the cost
   double max_step = kEstimatorStep;    ///< s; longer steps between rows are split
 };
 

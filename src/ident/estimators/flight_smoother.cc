@@ -277,7 +277,7 @@ double FlightSmoother::worth_of_order() {
   const int present = order_;
   std::array<std::vector<std::vector<double>>, 2> by;
   for (std::size_t i = 0; i < 2; ++i) {
-    order_ = (i == 1) == (present == 3) ? 3 : 4;  // the present one last
+    order_ = (i == 1) == (present == 2) ? 2 : 4;  // the present one last
     by[i] = residuals();
   }
   double sum = 0;

@@ -85,7 +85,7 @@ class FlightSmoother {
   void set_noise(const NoiseModel& noise);
   /// Slopes in double precision, for a fit to the last digit of exact data.
   void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
-  /// Order of the integrator's steps: 4, or 3 at half the cost.
+  /// Order of the integrator's steps: 4, or 2 at half the cost.
   void set_order(int order) { stands_ = stands_ && order == order_, order_ = order; }
   int order() const { return order_; }
   /// What that changes at the accepted states: sum of the squares of the differences of weighted residuals.

@@ -58,7 +58,7 @@ class Flight {
 
   /// Whether `outside` of a state acts; off at first.
   void feel_outside(bool on) { outside_ = on; }
-  /// Order of the steps: 4, or 3 at half the cost.
+  /// Order of the steps: 4, or 2 at half the cost. What rotors do is third order in either.
   void step_to_order(int order) { order_ = order; }
   const S& sensor_delay() const { return delays_.sensor_delay; }
 
@@ -114,7 +114,7 @@ class Flight {
     const BodyRate<S>& k1 = rate;
     const Disturbance<S>* outside = outside_ ? &x.outside : nullptr;
     const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
-    if (order_ == 3) return kutta_3(x, h, rate, k2, end);
+    if (order_ == 2) return kutta(x, h, rate, k2, end);
     const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid, outside);
     const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end, outside);
     x.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
@@ -124,10 +124,10 @@ class Flight {
     rate = body_.rate(x.body, end, outside);
   }
 
-  // Kutta's third-order rule, whose last rate serves as that at the end.
+  // Kutta's third-order rule, but that its last rate, at a state ahead of the end by h^2/2 of its
+  // acceleration, serves as that at the end: of second order.
   template <class Rotors>
-  void kutta_3(FlightState<S>& x, double h, BodyRate<S>& rate, const BodyRate<S>& k2,
-               const Rotors& end) const {
+  void kutta(FlightState<S>& x, double h, BodyRate<S>& rate, const BodyRate<S>& k2, const Rotors& end) const {
     const BodyRate<S>& k1 = rate;
     const BodyRate<S> k3 =
         body_.rate(moved(moved(x.body, k1, -h), k2, 2 * h), end, outside_ ? &x.outside : nullptr);
