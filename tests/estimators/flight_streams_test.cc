@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ident/core/random.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/io/read_flight_log.h"
 #include "ident/model/simulate.h"
@@ -43,6 +44,28 @@ TEST(FlightStreams, StreamsAtOneTimeAreLeftAlone) {
     EXPECT_TRUE(aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings).empty())
         << seed << ": " << (warnings.empty() ? "" : warnings[0].message);
   }
+}
+
+// On a circle turns about one axis follow those about the other: seen by a sensor askew they look late.
+TEST(FlightStreams, ASensorAskewIsNotLate) {
+  const Vehicle vehicle = random_vehicle(3);
+  FlightLog log = simulated(vehicle, "hover", 3);
+  Random random(5);
+  Vec4<double> q(1, 0, 0, 0);
+  constexpr double askew = 0.15;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double phase = 4.4 * log.t[i];
+    const Eigen::Vector3d w(0.8 * std::sin(phase), 0.8 * std::cos(phase), 0.2 * std::sin(0.3 * phase));
+    const double seen[3] = {w[0] * std::cos(askew) + w[1] * std::sin(askew),
+                            w[1] * std::cos(askew) - w[0] * std::sin(askew), w[2]};
+    for (std::size_t k = 0; k < 3; ++k) log.w_B[k][i] = seen[k] + 0.01 * random.normal();
+    for (std::size_t k = 0; k < 4; ++k) log.q_WB[k][i] = q[static_cast<Eigen::Index>(k)];
+    q = quaternion_product(q, quaternion_from_rotation_vector(Vec3<double>(w / kRate))).normalized();
+  }
+  const std::vector<FlightLog> logs{log};
+  const StreamOffset late = stream_offsets(record_of(vehicle, logs), vehicle.g).rates;
+  ASSERT_TRUE(std::isfinite(late.std));
+  EXPECT_LT(std::abs(late.seconds), 4e-3) << "+- " << late.std;
 }
 
 TEST(FlightStreams, ALateStreamIsFoundAndMoved) {

@@ -206,6 +206,10 @@ TEST(AgainstNaming, AWeakCauseBesideWhatSwingsOrStrikesIsNotNamed) {
   EXPECT_EQ(c.judged().status, "identified");
   c.lines = {{"az", 7.0, 6.0, 0.04}};
   EXPECT_EQ(c.judged().status, "unknown");
+  c.search.alone[0].gain = 500.0;  // what a propeller out of balance left to others
+  EXPECT_EQ(c.judged().status, "unknown");
+  c.search.alone[0].gain = 2000.0;
+  EXPECT_EQ(c.judged().status, "identified");
 }
 
 TEST(AgainstNaming, TheSameIllOfTwoRotorsIsNotNamed) {

@@ -64,10 +64,14 @@ TEST(NextCause, AThirdOneExplainsItsShareOrIsABenchValueWrongByTheSameEverywhere
 
 TEST(NextCause, WhatGainsLittleBesideSomethingVeryStrongIsItsForm) {
   const Candidate wrong{"parameter:omega_m", {}, 3}, effect{"thrust_curve", {4, 5}};
-  EXPECT_TRUE(is_material(gaining(50, 1.0), effect, 1, 2e4));
-  EXPECT_FALSE(is_material(gaining(50, 1.0), effect, 1, 3e4));
-  EXPECT_TRUE(is_material(gaining(70, 1.0), effect, 1, 1e6));
-  EXPECT_TRUE(is_material(gaining(50, 1.0), wrong, 1, 1e6));
+  const Candidate mounting{"imu_lever_arm", {4, 5, 6}};
+  EXPECT_TRUE(is_material(gaining(55, 1.0), effect, 1, 1e4));
+  EXPECT_FALSE(is_material(gaining(45, 1.0), effect, 1, 1e4));
+  EXPECT_FALSE(is_material(gaining(240, 1.0), effect, 1, 1e6));
+  EXPECT_TRUE(is_material(gaining(260, 1.0), effect, 1, 1e6));
+  EXPECT_TRUE(is_material(gaining(45, 1.0), wrong, 1, 1e6));
+  EXPECT_TRUE(is_material(gaining(45, 1.0), mounting, 1, 1e6));
+  EXPECT_TRUE(is_material(gaining(45, 1.0), effect, 0, 0.0));
 }
 
 TEST(NextCause, ASecondOneThatChangesExplainsMoreThanNextToNothing) {

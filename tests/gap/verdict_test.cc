@@ -241,6 +241,23 @@ TEST(Verdict, TheDragThatWindBringsAlongIsNotNamed) {
   EXPECT_EQ(c.judged().effects, Names{"wind"});
 }
 
+// Motors far from what was stated are that whatever else is there, unless their own speeds show another
+// thing.
+TEST(Verdict, APlainlyWrongLagIsNamedUnlessTheSpeedsAreNoLag) {
+  Case c({"parameter:omega_m"}, {"parameter:omega_m"});
+  c.weighs({0}, 1.0);
+  Parameter omega_m, zeta_m;
+  omega_m.name = "omega_m", omega_m.value = 30, omega_m.prior_value = 300, omega_m.prior_std = 15;
+  zeta_m.name = "zeta_m", zeta_m.value = 0.8;
+  c.fitted = {omega_m, zeta_m};
+  c.rival.gain[0] = 300.0;
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "identified") << seen.sentence;
+  EXPECT_NE(seen.sentence.find("The motors are not what was stated"), std::string::npos) << seen.sentence;
+  c.rival.sensors = {{"omega1", 30.0}, {"motors", 30.0}};  // slack between command and rotor
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
 TEST(Verdict, ACauseWhoseModelCannotBeFlownIsNotNamed) {
   Case c({"rotor_drag"}, {});
   c.search.ran_away = {"rotor_drag"};

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -26,33 +27,61 @@ std::size_t half_width(const FlightArc& arc) {
   return static_cast<std::size_t>(std::max(1.0, std::round(kShortTime / std::max(interval, 1e-6))));
 }
 
-/// Sums from which correlations over any parts are made.
-struct Sums {
-  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
-  void add(double x, double y) { n += 1, a += x, b += y, aa += x * x, bb += y * y, ab += x * y; }
-  Sums& operator+=(const Sums& s) {
-    n += s.n, a += s.a, b += s.b, aa += s.aa, bb += s.bb, ab += s.ab;
+/// Sums from which correlations over any parts are made: of the axes seen, of one told, of both.
+struct Seen {
+  double n = 0;
+  Vector3d a = Vector3d::Zero();
+  Matrix3d aa = Matrix3d::Zero();
+
+  Seen& operator+=(const Seen& s) {
+    n += s.n, a += s.a, aa += s.aa;
     return *this;
   }
-  double correlation() const {
-    const double x = aa - a * a / n, y = bb - b * b / n;
-    return n > 2 && x > 0 && y > 0 ? (ab - a * b / n) / std::sqrt(x * y) : 0.0;
+};
+struct Told {
+  double b = 0, bb = 0;
+  Vector3d ab = Vector3d::Zero();
+
+  Told& operator+=(const Told& t) {
+    b += t.b, bb += t.bb, ab += t.ab;
+    return *this;
   }
 };
-using AxisParts = std::vector<std::array<Sums, kParts>>;
+using SeenParts = std::array<Seen, kParts>;
+using ToldParts = std::vector<std::array<Told, kParts>>;  // of all axes
 
-/// Log-likelihood of a shift, of straight lines on the axes that agree.
-double likelihood(const AxisParts& axes, const std::vector<bool>& alike, int without) {
+template <class Sum>
+Sum sum_of(const std::array<Sum, kParts>& parts, int without) {
+  Sum all;
+  for (int part = 0; part < kParts; ++part)
+    if (part != without) all += parts[static_cast<std::size_t>(part)];
+  return all;
+}
+
+/// Share of what is told on an axis that the axes seen explain, one against another a little turned: a sensor
+/// that is mounted askew would else look late. 0 where its own axis says the opposite.
+double explained(const Seen& seen, const Told& told, Eigen::Index axis) {
+  if (!(seen.n > 4)) return 0.0;
+  Matrix3d A = seen.aa - seen.a * seen.a.transpose() / seen.n;
+  const Vector3d c = told.ab - seen.a * (told.b / seen.n);
+  const double yy = told.bb - told.b * told.b / seen.n;
+  if (!(A(axis, axis) > 0) || !(yy > 0)) return 0.0;
+  A.diagonal().array() += 1e-6 * A(axis, axis);  // an axis about which nothing turns
+  const Vector3d x = A.ldlt().solve(c);
+  return x[axis] > 0 ? std::clamp(x.dot(c) / yy, 0.0, 1 - 1e-12) : 0.0;
+}
+
+/// Log-likelihood of a shift, of regressions on the axes that agree.
+double likelihood(const SeenParts& seen, const ToldParts& told, const std::vector<bool>& alike, int without) {
   double sum = 0;
-  for (std::size_t k = 0; k < axes.size(); ++k) {
-    if (!alike[k]) continue;
-    Sums all;
-    for (int part = 0; part < kParts; ++part)
-      if (part != without) all += axes[k][static_cast<std::size_t>(part)];
-    const double r = all.correlation();
-    sum -= 0.5 * all.n * std::log(1 - std::min(r * std::abs(r), 1 - 1e-12));
-  }
+  const Seen all = sum_of(seen, without);
+  for (std::size_t k = 0; k < told.size(); ++k)
+    if (alike[k])
+      sum -=
+          0.5 * all.n * std::log(1 - explained(all, sum_of(told[k], without), static_cast<Eigen::Index>(k)));
   return sum;
 }
 
@@ -106,33 +135,41 @@ StreamOffset offset_of(const std::vector<Sides>& arcs, double interval) {
   const long step = std::max<long>(1, static_cast<long>(windows.margin) / 15);
   const long most = static_cast<long>(windows.margin) / step;
   const std::size_t axes_seen = arcs.empty() ? 0 : arcs[0].seen.size();
-  std::vector<AxisParts> shifts(static_cast<std::size_t>(2 * most + 1), AxisParts(axes_seen));
-  std::size_t count = 0;
+  std::vector<ToldParts> shifts(static_cast<std::size_t>(2 * most + 1), ToldParts(axes_seen));
+  SeenParts seen;
+  std::size_t count = 0, before = 0;
   for (const Sides& arc : arcs) count += changes(arc.seen[0], windows).size();
   if (count < kFewest) return {};
-  for (std::size_t k = 0; k < axes_seen; ++k) {
-    std::size_t before = 0;
-    for (const Sides& arc : arcs) {
-      const Track seen = changes(arc.seen[k], windows);
+  for (const Sides& arc : arcs) {
+    std::vector<Vector3d> turned(changes(arc.seen[0], windows).size(), Vector3d::Zero());
+    for (std::size_t k = 0; k < axes_seen; ++k) {
+      const Track axis = changes(arc.seen[k], windows);
+      for (std::size_t j = 0; j < axis.size(); ++j) turned[j][static_cast<Eigen::Index>(k)] = axis[j];
+    }
+    const auto part_of = [&](std::size_t j) { return (before + j) * kParts / count; };
+    for (std::size_t j = 0; j < turned.size(); ++j) {
+      Seen& part = seen[part_of(j)];
+      part.n += 1, part.a += turned[j], part.aa += turned[j] * turned[j].transpose();
+    }
+    for (std::size_t k = 0; k < axes_seen; ++k)
       for (long s = -most; s <= most; ++s) {
         const Track told = changes(arc.told[k], windows, -s * step);
-        for (std::size_t j = 0; j < seen.size(); ++j)
-          shifts[static_cast<std::size_t>(s + most)][k][(before + j) * kParts / count].add(seen[j], told[j]);
+        for (std::size_t j = 0; j < turned.size(); ++j) {
+          Told& part = shifts[static_cast<std::size_t>(s + most)][k][part_of(j)];
+          part.b += told[j], part.bb += told[j] * told[j], part.ab += told[j] * turned[j];
+        }
       }
-      before += seen.size();
-    }
+    before += turned.size();
   }
   std::vector<bool> alike(axes_seen, false);
-  for (const AxisParts& axes : shifts)
-    for (std::size_t k = 0; k < axes_seen; ++k) {
-      Sums all;
-      for (const Sums& part : axes[k]) all += part;
-      if (all.correlation() > kAlike) alike[k] = true;
-    }
+  for (const ToldParts& axes : shifts)
+    for (std::size_t k = 0; k < axes_seen; ++k)
+      if (explained(sum_of(seen, -1), sum_of(axes[k], -1), static_cast<Eigen::Index>(k)) > kAlike * kAlike)
+        alike[k] = true;
   if (std::ranges::none_of(alike, [](bool x) { return x; })) return {};
   const auto peak = [&](int without) {
     std::vector<double> y;
-    for (const AxisParts& axes : shifts) y.push_back(likelihood(axes, alike, without));
+    for (const ToldParts& axes : shifts) y.push_back(likelihood(seen, axes, alike, without));
     return (top_of(y) - static_cast<double>(most)) * static_cast<double>(step) * interval;
   };
   double square = 0;  // jackknife

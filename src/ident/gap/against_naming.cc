@@ -47,9 +47,9 @@ constexpr double kOff = 2.0;
 constexpr double kAtOdds = 40.0;
 constexpr double kAtOddsBy = 0.25;
 constexpr double kAsksFor = 3.5;
-// A cause that gains less is not told from what else swings or strikes; jumps in one log that are more than
-// chance.
-constexpr double kWeak = 100.0;
+// A cause that gains less is not told from what else strikes, or swings: a line explains more than most
+// causes do, and 850 flights without what makes one showed two. Jumps in one log that are more than chance.
+constexpr double kWeak = 100.0, kWeakBesideLine = 1000.0;
 constexpr int kManyJumps = 4;
 
 bool is_candidate(const SearchResult& search, const std::string& name) {
@@ -114,7 +114,8 @@ const SearchStep* weak_beside_more(const SearchResult& search, const std::vector
   const bool strikes = std::ranges::any_of(jumps, [](const Burst& one) { return one.count >= kManyJumps; });
   if (lines.empty() && !strikes) return nullptr;
   const auto weak = std::ranges::min_element(search.alone, {}, &SearchStep::gain);
-  return weak != search.alone.end() && weak->gain < kWeak ? &*weak : nullptr;
+  const double told = lines.empty() ? kWeak : kWeakBesideLine;
+  return weak != search.alone.end() && weak->gain < told ? &*weak : nullptr;
 }
 
 // Where a drive of another form than the catalogue's shows: along the thrust, and in the rotors.

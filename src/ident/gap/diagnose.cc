@@ -152,8 +152,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
                                      options.progress};
   const SearchResult search = search_causes(record, vehicle, p, search_options);
   // What a cause explains, logs need not agree on without it: a battery at another charge.
-  for (const Warning& w : logs_agree(record, logs, *search.best.theta, search.best.fit))
-    result.warnings.push_back(w), tested.push_back(w);
+  if (!logs_agree(record, logs, *search.base.theta, search.base.fit).empty())
+    for (const Warning& w : logs_agree(record, logs, *search.best.theta, search.best.fit))
+      result.warnings.push_back(w), tested.push_back(w);
   if (options.progress) options.progress(0.9, "held-out flight");
 
   const ResidualWrench before =

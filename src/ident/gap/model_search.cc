@@ -25,7 +25,7 @@ constexpr std::size_t kTrials = 2;
 constexpr int kExchanges = 2;
 // What a regression predicts by more than chance, and the share of it that a missing cause leaves to it.
 constexpr double kPredicted = 60.0;
-constexpr double kMostOfIt = 0.5;
+constexpr double kMostOfIt = 0.25;
 
 // One search: adds causes step by step, and exchanges them where their weights speak against them.
 class Search {
@@ -140,7 +140,8 @@ class Search {
       s_.fell.push_back(cause);
       return true;
     }
-    if (trial && trial->own.passes() && trial->own.honest() > others) {
+    if (trial && ((trial->own.passes() && trial->own.honest() > others) ||
+                  (trial->own.possible && leaves_nothing_to_predict(trial->at)))) {
       const double gain = trial->own.honest();
       adopt(cause, std::move(*trial), gain);
       return true;

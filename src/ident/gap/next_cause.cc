@@ -2,6 +2,7 @@
 #include "ident/gap/next_cause.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ident {
 namespace {
@@ -16,9 +17,10 @@ constexpr double kMaterial = 0.04;
 // A second one that changes from one part of the flight to the next explains at least this.
 constexpr double kUneven = 5.0;
 constexpr double kNextToNothing = 0.01;
-// One that gains little explains this share of what was found.
-constexpr double kLittle = 60.0;
-constexpr double kOfLittle = 2e-3;
+// And any but a bench value at least this, in units of the noise, and this many roots of what was found: of
+// 300 second ones below, four fifths were the form of the first.
+constexpr double kLittle = 50.0;
+constexpr double kOfRoot = 0.25;
 // A bench value that is wrong by the same in all parts of the flight, and gains so much.
 constexpr double kEven = 1.5;
 constexpr double kPlainlyWrong = 100.0;
@@ -56,7 +58,9 @@ bool is_material(const Further& next, const Candidate& cause, int found, double 
   const double gain = next.honest();
   const bool even = cause.parameter >= 0 && next.stretch < kEven;
   if (found >= kFew) return (even && gain > kPlainlyWrong) || gain >= kMaterial * explained;
-  if (!even && gain < kLittle && gain < kOfLittle * explained) return false;
+  if (!even && !is_of_mounting(cause.name) && found > 0 &&
+      gain < std::max(kLittle, kOfRoot * std::sqrt(explained)))
+    return false;
   return moves_mass(cause) || next.stretch < kUneven || gain >= kNextToNothing * explained;
 }
 

@@ -225,7 +225,13 @@ struct PlainCause {
 };
 
 // The motors' lag where it was found wrong by more than anything else that a model lacks would make of it.
-const Parameter* plainly_wrong_lag(const SearchResult& search, const std::vector<Parameter>& fitted) {
+// Where speeds were measured they show whether it is the lag: it leaves nothing of them to predict.
+const Parameter* plainly_wrong_lag(const SearchResult& search, const Rival& rival,
+                                   const std::vector<Parameter>& fitted) {
+  double of_speeds = 0;
+  for (const auto& [channel, gain] : rival.sensors)
+    if (channel == "motors" || channel.starts_with("omega")) of_speeds += std::max(gain, 0.0);
+  if (of_speeds > kRivalGain) return nullptr;
   const auto is_it = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
   const auto omega_m = std::ranges::find(fitted, "omega_m", &Parameter::name);
   const auto zeta_m = std::ranges::find(fitted, "zeta_m", &Parameter::name);
@@ -236,9 +242,10 @@ const Parameter* plainly_wrong_lag(const SearchResult& search, const std::vector
   return flies && lag_beyond_physics(omega_m->value, *omega_m->prior_value) ? &*omega_m : nullptr;
 }
 
-std::vector<PlainCause> plain_causes(const SearchResult& search, const std::vector<Parameter>& fitted) {
+std::vector<PlainCause> plain_causes(const SearchResult& search, const Rival& rival,
+                                     const std::vector<Parameter>& fitted) {
   std::vector<PlainCause> out;
-  if (const Parameter* lag = plainly_wrong_lag(search, fitted))
+  if (const Parameter* lag = plainly_wrong_lag(search, rival, fitted))
     out.push_back({"parameter:omega_m",
                    fmt::format("The motors are not what was stated: omega_m is {} rad/s instead of {}, and "
                                "nothing else that a model can lack makes such a difference.",
@@ -261,7 +268,7 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted) {
   Judged out = judge_all(search, gap, rival, lines, jumps, fitted);
-  const std::vector<PlainCause> plain = plain_causes(search, fitted);
+  const std::vector<PlainCause> plain = plain_causes(search, rival, fitted);
   if (plain.empty() || out.status != "unknown" || (std::isfinite(gap.closed) && gap.ci95[1] < kMostRemains))
     return out;
   // What else is there, and whether it can be told, changes nothing of these.
