@@ -213,7 +213,7 @@ TEST(Verdict, WhatIsCertainIsNamedBesideWhatIsLeftOpen) {
   EXPECT_EQ(seen.status, "ambiguous");
   EXPECT_EQ(seen.effects, (Names{"battery_sag", "cg_offset"}));
   EXPECT_EQ(seen.confused_with, (Names{"payload", "rotor_tilt"}));
-  EXPECT_NE(seen.sentence.find("but in place of cg_offset payload or rotor_tilt would"), std::string::npos)
+  EXPECT_NE(seen.sentence.find("but payload or rotor_tilt in place of cg_offset would"), std::string::npos)
       << seen.sentence;
   c.weighs({0, 4}, 0.1);  // four of which it may be any
   EXPECT_EQ(c.judged().status, "unknown");

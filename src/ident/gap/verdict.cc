@@ -203,8 +203,8 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
     out.status = "ambiguous";
     const bool part = !open.empty() && open.size() < out.effects.size();
     out.sentence = fmt::format("The gap is explained by {}, but {}{} would explain it about as well.", found,
-                               part ? fmt::format("in place of {} ", fmt::join(open, " and ")) : "",
-                               fmt::join(others, " or "));
+                               fmt::join(others, " or "),
+                               part ? fmt::format(" in place of {}", fmt::join(open, " and ")) : "");
   }
   out.confused_with.insert(out.confused_with.end(), others.begin(), others.end());
   std::vector<std::string> beside = names_of(search.best.adopted);
