@@ -47,6 +47,24 @@ TEST(Verdict, WhatIsHardlyThereBesideAStrongCauseIsNotNamed) {
   EXPECT_EQ(c.judged().effects, (Names{"motor_asymmetry", "sensor_delay"}));
 }
 
+TEST(Verdict, ACurveThatBendsLessThanStandsScatterIsTheFormOfWhatItStandsBeside) {
+  Case c({"wind", "thrust_curve"}, {"wind", "thrust_curve"});
+  c.weighs({0, 1}, 1.0);
+  c.search.alone[1].gain = 80;
+  Parameter bend, offset;
+  bend.name = "thrust_curve.c", bend.value = -0.01, offset.name = "thrust_curve.offset", offset.value = 0.004;
+  c.fitted = {bend, offset};
+  EXPECT_EQ(c.judged().effects, Names{"wind"});
+  c.search.alone[1].gain = 500;  // however little, it is plain
+  EXPECT_EQ(c.judged().effects, (Names{"wind", "thrust_curve"}));
+  c.search.alone[1].gain = 80, c.fitted[1].value = 0.03;
+  EXPECT_EQ(c.judged().effects, (Names{"wind", "thrust_curve"}));
+  Case alone({"thrust_curve"}, {"thrust_curve"});
+  alone.weighs({0}, 1.0);
+  alone.search.alone[0].gain = 80, alone.fitted = {bend, offset};
+  EXPECT_EQ(alone.judged().effects, Names{"thrust_curve"});
+}
+
 TEST(Verdict, WithoutACauseThatCouldBeTriedTheLikelyOnesAreTold) {
   Case c({"rotor_drag", "wind", "payload"}, {});
   c.weighs({}, 0.5), c.weighs({1}, 0.3), c.weighs({0}, 0.18), c.weighs({2}, 0.02);

@@ -47,9 +47,19 @@ std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
   return names;
 }
 
+// A thrust curve that bends by less than thrust stands scatter, and that the flight hardly shows.
+bool bends_next_to_nothing(const SearchResult& search, const std::vector<Parameter>& fitted) {
+  constexpr double kOfAStand = 1.0 / 60, kPlain = 200.0;
+  const auto of_curve = std::ranges::find(search.alone, "thrust_curve", &SearchStep::name);
+  if (of_curve == search.alone.end() || of_curve->gain > kPlain) return false;
+  return std::ranges::all_of(fitted, [&](const Parameter& p) {
+    return !p.name.starts_with("thrust_curve.") || std::abs(p.value) < kOfAStand;
+  });
+}
+
 // Without those that were taken up and are hardly there once all are weighed by the scatter of the strongest:
 // they mend its form. A battery that thrust itself shows is weighed otherwise.
-std::vector<std::string> probable_names(const SearchResult& search) {
+std::vector<std::string> probable_names(const SearchResult& search, const std::vector<Parameter>& fitted) {
   constexpr double kHardlyThere = 0.1, kThere = 0.5;
   std::vector<std::string> names = names_of(search.best.adopted);
   const auto there = [&](const std::string& n) { return search.probability_of(n) > kThere; };
@@ -57,6 +67,7 @@ std::vector<std::string> probable_names(const SearchResult& search) {
     std::erase_if(names, [&](const std::string& n) {
       return search.probability_of(n) < kHardlyThere && !(n == "battery_sag" && search.thrust.plain());
     });
+  if (names.size() > 1 && bends_next_to_nothing(search, fitted)) std::erase(names, "thrust_curve");
   return names;
 }
 
@@ -156,7 +167,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
                     fmt::join(search.ran_away, " or "));
     return out;
   }
-  out.effects = probable_names(search);
+  out.effects = probable_names(search, fitted);
   if (out.effects.empty()) {
     out = nothing_found(gap, rival, lines, jumps, fitted);
     if (out.status == "unknown") out.confused_with = likely(search);
