@@ -202,6 +202,18 @@ TEST(FlightFindings, SpeedsServeWhereTheyContradictTheCommands) {
   EXPECT_THROW(refine_flight(known(truth), logs, {.validate = false}), DataError);
 }
 
+// A controller makes up for a battery that falls: commands rise, speeds and flight stay.
+TEST(FlightFindings, ABatteryContradictsNoCommands) {
+  for (const char* scenario : {"eight", "mixed", "hover"}) {
+    SimulationOptions options;
+    options.scenario = scenario, options.rate = 100, options.duration = 60;
+    FlightLog log = simulate_flight(quad(), options).log;
+    for (auto& column : log.delta)
+      for (std::size_t i = 0; i < column.size(); ++i) column[i] /= 1 - 0.2 * log.t[i] / log.t.back();
+    EXPECT_FALSE(commands_contradict_speeds(log)) << scenario;
+  }
+}
+
 // Speeds that do nothing but shake say nothing of commands.
 TEST(FlightFindings, SpeedsThatHardlyChangeContradictNothing) {
   const Vehicle truth = quad();
@@ -209,7 +221,10 @@ TEST(FlightFindings, SpeedsThatHardlyChangeContradictNothing) {
   Random random(3);
   log.Omega.assign(4, std::vector<double>(log.t.size()));
   for (auto& column : log.Omega)
-    for (double& Omega : column) Omega = 940 + random.normal();
+    for (double& Omega : column) Omega = 940 + 10 * random.normal();
+  EXPECT_FALSE(commands_contradict_speeds(log));
+  for (auto& column : log.Omega)  // telemetry at a fifth of the rate, held
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = column[i - i % 5];
   EXPECT_FALSE(commands_contradict_speeds(log));
 }
 

@@ -38,6 +38,29 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   }
 }
 
+TEST(FlightFit, AnIntegratorOfLowerOrderServesWhereItDoesNotShow) {
+  const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  const std::vector<double> p = parameter_vector(vehicle);
+  SimulationOptions simulated;
+  simulated.duration = 20.0;
+  FlightFitOptions cheap, dear;
+  cheap.exact = dear.exact = false;
+  cheap.order = 2;
+  for (const bool noisy : {true, false}) {
+    simulated.noise = noise_level(noisy ? "typical" : "none");
+    simulated.turbulence = noisy ? 0.3 : 0.0;
+    simulated.longest_step = noisy ? simulated.longest_step : 0.0;
+    const std::vector<FlightLog> logs{simulate_flight(vehicle, simulated).log};
+    const FlightRecord record = make_flight_record(vehicle, p, logs);
+    const Theta theta(p, free_constants(vehicle, p), record.logs, true);
+    const FlightFit fit = fit_flight(record, theta, cheap), by_four = fit_flight(record, theta, dear);
+    EXPECT_EQ(fit.smoother->order(), noisy ? 2 : 4);
+    for (int i = 0; i < theta.constants_count() && noisy; ++i)
+      EXPECT_LT(std::abs(fit.u[i] - by_four.u[i]), 0.3 * std::sqrt(by_four.covariance(i, i)))
+          << theta.name(i);
+  }
+}
+
 TEST(FlightFit, ACalmLogIsNotTakenForAGustyOne) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   SimulationOptions options;

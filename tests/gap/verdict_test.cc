@@ -241,6 +241,9 @@ TEST(Verdict, TheDragByWhichWindActsIsNoRivalOfIt) {
   Case c({"rotor_drag", "wind", "rotor_tilt"}, {"rotor_drag", "wind"});
   c.weighs({0, 1}, 0.8), c.weighs({0, 2}, 0.2);
   EXPECT_EQ(c.judged().confused_with, Names{"rotor_tilt"});
+  c.search.sets.clear();
+  c.weighs({0, 1}, 0.2), c.weighs({0}, 0.8);  // unless there is no wind
+  EXPECT_EQ(c.judged().confused_with, Names{"rotor_drag"});
 }
 
 TEST(Verdict, WithoutACauseAContradictedBenchValueIsAGap) {

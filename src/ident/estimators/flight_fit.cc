@@ -177,9 +177,10 @@ class Fitting {
     }
   }
 
-  /// Whether there is so little noise that the integrator's order shows. It is 4 from then on.
-  bool order_shows() {
-    if (order_ == 4 || !(smoother_->worth_of_order() > kOfOrder)) return false;
+  /// Whether there is so little noise that the integrator's order shows, in `times` as much flight. It is 4
+  /// from then on.
+  bool order_shows(double times = 1.0) {
+    if (order_ == 4 || !(times * smoother_->worth_of_order() > kOfOrder)) return false;
     order_ = 4;
     smoother_->set_order(order_);
     return true;
@@ -272,7 +273,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         Fitting first(excerpt, theta, options);
         first.begin();
         first.find_noise(tell(0.1, 0.4));
-        first.order_shows();
+        first.order_shows(record.duration / excerpt.duration);
         begun = fitting.go_on_from(first);
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }

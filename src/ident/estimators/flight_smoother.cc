@@ -265,6 +265,7 @@ std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
 }
 
 std::vector<std::vector<double>> FlightSmoother::residuals() {
+  stands_ = stands_ && trial_u_ == u_;
   trial_ = states_;
   trial_u_ = u_;
   evaluate(u_, false, false);

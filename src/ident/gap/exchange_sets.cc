@@ -21,7 +21,7 @@ constexpr double kNotRuledOut = 1e-3;
 constexpr std::size_t kAlternatives = 4;
 constexpr double kLess = 0.9;
 // Steps that the fit of another set may take; that of a right one takes three to seven.
-constexpr int kAlternativeSteps = 12;
+constexpr int kAlternativeSteps = 20;
 
 // The model with other causes, if all of them act there and the weights prefer them there, too.
 std::optional<Standing> preferred_in_full(const SearchState& s, const std::vector<int>& causes) {

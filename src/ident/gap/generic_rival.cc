@@ -202,6 +202,7 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   Rival rival;
   FlightSmoother smoother(record, theta, floor, std::max(fit.chunk_seconds, kChunk));
   if (smoother.chunks().size() < 60) return rival;
+  rival.judged = true;
   smoother.set_order(fit.smoother->order());
   if (smoother.chunks().size() == fit.smoother->chunks().size()) smoother.set_states(fit.smoother->states());
   smoother.settle(fit.u, kRounds);

@@ -11,6 +11,7 @@ namespace ident {
 /// predicts beyond a model, as fall of the cost (twice the log likelihood) on blocks that it was not fitted
 /// to. Below 0: it only follows noise.
 struct Rival {
+  bool judged = false;           ///< there was flight enough
   std::array<double, 6> gain{};  ///< Fx Fy Fz Mx My Mz
   /// The same for what each sensor shows beyond the model, by name of its channel.
   std::vector<std::pair<std::string, double>> sensors;

@@ -48,6 +48,7 @@ class Search {
     s_.out.sets = weighed_sets(s_.now);
     s_.out.alone = s_.steps_here();
     s_.fit.tolerance_of_misfit = 0;
+    s_.now.model.fit.smoother->set_order(4);
     finish_fit(s_.now.model.fit, *s_.now.model.theta, s_.fit);
     s_.out.best = std::move(s_.now.model);
     s_.out.asked = asked_by_channels(s_.out.best);
@@ -242,11 +243,13 @@ class Search {
   // Beside a strong cause a true one is a small share of what is explained, and most of what is left: of what
   // a regression on the flight still predicts.
   bool leaves_nothing_to_predict(const Standing& there) const {
-    const auto predicted = [&](const Standing& at) {
-      return generic_rival(s_.record, *at.model.theta, at.model.fit, at.form.noise).total();
+    const auto left = [&](const Standing& at) {
+      return generic_rival(s_.record, *at.model.theta, at.model.fit, there.form.noise);
     };
-    const double before = predicted(s_.now);
-    return before > kPredicted && predicted(there) < kMostOfIt * before;
+    const Rival before = left(s_.now);
+    if (!(before.total() > kPredicted)) return false;
+    const Rival after = left(there);
+    return after.judged && after.total() < kMostOfIt * before.total();
   }
 
   SearchState s_;

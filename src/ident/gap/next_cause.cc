@@ -17,8 +17,9 @@ constexpr double kMaterial = 0.04;
 // A second one that changes from one part of the flight to the next explains at least this.
 constexpr double kUneven = 5.0;
 constexpr double kNextToNothing = 0.01;
-// And any but a bench value at least this, in units of the noise, and this many roots of what was found: of
-// 300 second ones below, four fifths were the form of the first.
+// And any but how a sensor is mounted, or a bench value that is wrong by the same everywhere, at least this,
+// in units of the noise, and this many roots of what was found: of 300 second ones below, four fifths were
+// the form of the first.
 constexpr double kLittle = 50.0;
 constexpr double kOfRoot = 0.25;
 // A bench value that is wrong by the same in all parts of the flight, and gains so much.

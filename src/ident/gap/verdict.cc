@@ -149,8 +149,10 @@ std::vector<std::string> in_their_place(const SearchResult& search, const std::v
     if (std::ranges::includes(names, named)) {
       own += set.probability;
     } else if (set.probability > kTold) {
+      const bool parts = std::ranges::all_of(names, held);  // drag alone, where it was wind with drag
       for (const std::string& n : names)
-        if (!held(n) && std::ranges::find(others, n) == others.end()) others.push_back(n);
+        if ((parts ? !named.contains(n) : !held(n)) && std::ranges::find(others, n) == others.end())
+          others.push_back(n);
     }
   }
   return others;

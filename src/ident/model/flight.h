@@ -1,5 +1,5 @@
-// One step of the whole vehicle: motors exactly, body by Runge-Kutta 4 with the rotor speeds of that
-// solution.
+// One step of the whole vehicle: motors exactly, body by Runge-Kutta 4, or at half the cost by Simpson's
+// rule, with the rotor speeds of that solution.
 #pragma once
 
 #include <array>
@@ -58,7 +58,7 @@ class Flight {
 
   /// Whether `outside` of a state acts; off at first.
   void feel_outside(bool on) { outside_ = on; }
-  /// Order of the steps: 4, or 2 at half the cost. What rotors do is third order in either.
+  /// Order of the steps: 4, or 2 at half the cost.
   void step_to_order(int order) { order_ = order; }
   const S& sensor_delay() const { return delays_.sensor_delay; }
 
@@ -114,7 +114,7 @@ class Flight {
     const BodyRate<S>& k1 = rate;
     const Disturbance<S>* outside = outside_ ? &x.outside : nullptr;
     const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
-    if (order_ == 2) return kutta(x, h, rate, k2, end);
+    if (order_ == 2) return simpson(x, h, rate, k2, end);
     const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid, outside);
     const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end, outside);
     x.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot, k4.q_dot);
@@ -124,13 +124,13 @@ class Flight {
     rate = body_.rate(x.body, end, outside);
   }
 
-  // Kutta's third-order rule, but that its last rate, at a state ahead of the end by h^2/2 of its
-  // acceleration, serves as that at the end: of second order.
+  // Simpson's rule over the midpoint rule, whose end, off by h^3, serves for the rate there: of second order
+  // in what the body does to itself, next to nothing at h, and fourth in what rotors do to its rates.
   template <class Rotors>
-  void kutta(FlightState<S>& x, double h, BodyRate<S>& rate, const BodyRate<S>& k2, const Rotors& end) const {
+  void simpson(FlightState<S>& x, double h, BodyRate<S>& rate, const BodyRate<S>& k2,
+               const Rotors& end) const {
     const BodyRate<S>& k1 = rate;
-    const BodyRate<S> k3 =
-        body_.rate(moved(moved(x.body, k1, -h), k2, 2 * h), end, outside_ ? &x.outside : nullptr);
+    const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h), end, outside_ ? &x.outside : nullptr);
     x.body.q_WB = combined(x.body.q_WB, h, k1.q_dot, k2.q_dot, k3.q_dot);
     x.body.w_B = combined(x.body.w_B, h, k1.w_dot_B, k2.w_dot_B, k3.w_dot_B);
     x.body.v_W = combined(x.body.v_W, h, k1.v_dot_W, k2.v_dot_W, k3.v_dot_W);
