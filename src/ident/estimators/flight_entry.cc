@@ -25,28 +25,23 @@ double mean_of_used(const std::vector<double>& column) {
 // Commands of all logs or of none: where those of one are missing, or were left out as not the right ones,
 // rotor speeds serve as input for all. Empty where nothing has to be changed.
 std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::vector<Warning>& warnings) {
-  const std::size_t before = warnings.size();
+  if (std::ranges::none_of(logs, &FlightLog::has_commands)) return {};
+  const bool speeds = std::ranges::all_of(logs, &FlightLog::has_rotor_speeds);
   std::vector<bool> commands;
   for (const FlightLog& log : logs) {
     const bool contradict = log.has_commands() && commands_contradict_speeds(log);
-    if (contradict)
-      warnings.push_back(
-          {"commands_contradict_speeds",
-           fmt::format(
-               "{}: no rotor turns as any of the commands says, whatever the motors' lag: commands or "
-               "rotor speeds are not what they are said to be; the speeds are taken, and nothing is "
-               "said of the motors",
-               log.file)});
     commands.push_back(log.has_commands() && !contradict);
+    if (!contradict) continue;
+    const std::string what = fmt::format(
+        "{}: no rotor turns as any of the commands says, whatever the motors' lag: commands or "
+        "rotor speeds are not what they are said to be",
+        log.file);
+    if (!speeds) throw DataError(what + "; the speeds cannot serve instead, for another log has none");
+    warnings.push_back(
+        {"commands_contradict_speeds", what + "; the speeds are taken, and nothing is said of the motors"});
   }
   const auto commanded = std::ranges::count(commands, true);
-  const bool none = std::ranges::none_of(logs, &FlightLog::has_commands);
-  if (none || commanded == std::ssize(logs)) return {};
-  if (!std::ranges::all_of(logs, &FlightLog::has_rotor_speeds)) {
-    if (warnings.size() > before)
-      throw DataError(warnings.back().message + "; another log has none: give that alone");
-    return {};
-  }
+  if (commanded == std::ssize(logs) || !speeds) return {};
   std::vector<FlightLog> out(logs.begin(), logs.end());
   for (FlightLog& log : out) log.delta.clear();
   const auto without = logs.begin() + (std::ranges::find(commands, false) - commands.begin());

@@ -1,19 +1,16 @@
-// Ceres over the reduced system, in turn with the noise; sandwich covariance.
+// Ceres over the reduced system, in turn with the noise.
 #include "ident/estimators/flight_fit.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/error.h"
-#include "ident/core/random.h"
 #include "ident/estimators/flight_fit_steps.h"
 
 namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
-// Fall of the cost that is worth a step without exact slopes.
-constexpr double kWorthAStep = 0.01;
 // Fall of the cost that steps with exact slopes may have to themselves.
 constexpr double kAsGoodAsThere = 1.0;
 // Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
@@ -39,20 +36,6 @@ constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise br
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool finite(const ReducedSystem& system) { return std::isfinite(system.cost) && system.S.allFinite(); }
-
-// What a step has to promise: more than the tolerance, and than a share of what the model misses altogether.
-double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options) {
-  const double missed = smoother.reduced().cost - samples_of(smoother.record());
-  return std::max(options.tolerance, options.tolerance_of_misfit * missed);
-}
-
-// `order`: of steps without exact slopes.
-void set_exact(FlightSmoother& smoother, bool exact, int order) {
-  smoother.set_exact(exact);
-  smoother.set_order(exact ? 4 : order);
-}
-
 // Mean square of the residuals, in variances.
 double square_of(const FlightSmoother& smoother) {
   return smoother.reduced().cost / samples_of(smoother.record());
@@ -74,27 +57,6 @@ void calm(FlightSmoother& smoother) {
   NoiseModel noise = smoother.noise();
   for (double& sigma : noise.sigma) sigma *= std::sqrt(std::min(square / kCalm, kMostCalm));
   smoother.set_noise(noise);
-}
-
-// Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
-MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
-  const double n = static_cast<double>(fit.blocks.size());
-  if (n < 8) return fit.naive_covariance;
-  VectorXd mean = VectorXd::Zero(prior.rows());
-  for (const ScoreBlock& block : fit.blocks) mean += block.score / n;
-  MatrixXd meat = MatrixXd::Zero(prior.rows(), prior.rows());
-  for (const ScoreBlock& block : fit.blocks)
-    meat.noalias() += (block.score - mean) * (block.score - mean).transpose();
-  meat = meat * (n / (n - 1)) + prior;
-  const MatrixXd sandwich = fit.naive_covariance * meat * fit.naive_covariance;
-  // Nothing is known worse with the flight than without it.
-  const VectorXd most = prior.diagonal().cwiseProduct(fit.naive_covariance.diagonal()).cwiseInverse();
-  const VectorXd stretch = sandwich.diagonal()
-                               .cwiseQuotient(fit.naive_covariance.diagonal())
-                               .cwiseMin(most)
-                               .cwiseMax(1.0)
-                               .cwiseSqrt();
-  return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
 }
 
 // One fit on its way: shared unknowns, noise and chunks over a record or an excerpt of it.
@@ -167,7 +129,7 @@ class Fitting {
       if (done && !(step.fall < kAsGoodAsThere)) break;
       if (step.fall < kNear && theta_.possible(u_ + step.du)) {
         u_ += step.du;
-      } else if (finite(smoother_->linearize(u_))) {
+      } else if (is_finite(smoother_->linearize(u_))) {
         trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
       } else {  // a sensor that seems to have no noise at all
         restart(before);
@@ -190,13 +152,12 @@ class Fitting {
     if (gave_up()) return unfinished();
     smoother_->set_gentle(false);
     const bool near = options_.exact && promised_ < kNear;  // one more step does it
-    set_exact(*smoother_, near, order_);
+    smoother_->set_exact(near);
     // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
-    if (!finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
+    if (!is_finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
     if (!near) {
-      const SharedMinimum at =
-          minimise_shared(*smoother_, u_, std::max(worth_a_step(*smoother_, options_), kWorthAStep),
-                          options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
+      const SharedMinimum at = minimise_shared(*smoother_, u_, worth_a_step(*smoother_, options_, false),
+                                               options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
       u_ = at.u, steps_ += at.steps;
       if (gave_up()) return unfinished();
     }
@@ -286,58 +247,6 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   FlightFit fit = fitting.finish();
   tell(0, 1)(1.0);
   return fit;
-}
-
-void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
-  FlightSmoother& smoother = *fit.smoother;
-  const int order = smoother.order();
-  set_exact(smoother, options.exact, order);
-  const bool exact = options.exact || !finite(linearize_at(smoother, fit.u));  // too coarse for these
-  set_exact(smoother, exact, order);
-  linearize_at(smoother, fit.u);
-  smoother.accept();
-  const double worth = worth_a_step(smoother, options);
-  const SharedMinimum at =
-      minimise_shared(smoother, fit.u, exact ? worth : std::max(worth, kWorthAStep), options.most_steps);
-  fit.u = at.u, fit.steps += at.steps;
-  fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
-  fit.information = smoother.reduced().S;
-  const MatrixXd prior = prior_information(theta, fit.u);
-  fit.naive_covariance = inverse_of(fit.information + prior);
-  fit.blocks = smoother.score_blocks(options.block_seconds);
-  fit.covariance = corrected_for_colour(fit, prior);
-  smoother.set_exact(false);
-}
-
-VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const Theta& theta,
-                         double training_share) {
-  const PriorTerms prior = theta.prior(fit.u);
-  MatrixXd H = prior_information(theta, fit.u);
-  VectorXd g = prior.slope.cwiseProduct(prior.residual);
-  for (const ScoreBlock& block : fit.blocks)
-    if (block.to <= training_end(record.arcs[static_cast<std::size_t>(block.arc)], training_share))
-      H += block.information, g += block.score;
-  return fit.u - inverse_of(H) * g;
-}
-
-MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws) {
-  const PriorTerms prior = theta.prior(fit.u);
-  const MatrixXd own = prior_information(theta, fit.u);
-  const auto n = static_cast<int>(fit.blocks.size());
-  Random random(20240229);
-  MatrixXd sum = MatrixXd::Zero(own.rows(), own.cols());
-  for (int draw = 0; draw < draws; ++draw) {
-    MatrixXd H = own;
-    VectorXd g = prior.slope.cwiseProduct(prior.residual);
-    for (Eigen::Index i = 0; i < g.size(); ++i) g[i] += prior.slope[i] * random.normal();
-    for (int b = 0; b < n; ++b) {
-      const ScoreBlock& block = fit.blocks[static_cast<std::size_t>(random.below(n))];
-      H += block.information, g += block.score;
-    }
-    const VectorXd step = inverse_of(H) * g;
-    sum.noalias() += step * step.transpose() / draws;
-  }
-  return sum;
 }
 
 }  // namespace ident

@@ -46,6 +46,10 @@ struct FlightFit {
 /// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
+/// Fall of the cost that a step has to promise: more than the tolerance, than a share of what the model
+/// misses altogether, and than slopes that are not exact can tell.
+double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options, bool exact);
+
 /// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
 /// Slopes are exact if asked for, and steps of order 4: where links let next to no noise through, the
 /// rounding of single precision would pass for information. For a fit that was made with a larger tolerance.

@@ -58,7 +58,7 @@ class SharedResiduals {
     if (last_.size() == 0 || u != last_) linearize_at(*smoother_, u);
     last_ = u;
     const ReducedSystem& system = smoother_->reduced();
-    if (!std::isfinite(system.cost) || !system.S.allFinite()) {
+    if (!is_finite(system)) {
       last_.resize(0);
       return false;
     }
@@ -113,6 +113,8 @@ double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough, 
 const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u) {
   return smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
 }
+
+bool is_finite(const ReducedSystem& system) { return std::isfinite(system.cost) && system.S.allFinite(); }
 
 double samples_of(const FlightRecord& record) {
   double samples = 1;

@@ -17,6 +17,9 @@ struct SharedMinimum {
 /// Linearises at u; where the last linearisation is there already, only the process noise can have changed.
 const ReducedSystem& linearize_at(FlightSmoother& smoother, const Eigen::VectorXd& u);
 
+/// Whether the model could be flown there.
+bool is_finite(const ReducedSystem& system);
+
 /// Samples that the cost is a sum over: about one each near the minimum.
 double samples_of(const FlightRecord& record);
 

@@ -83,8 +83,12 @@ class FlightSmoother {
 
   /// Another noise model; the states stay. After a change of axes the next linearisation has no leverage yet.
   void set_noise(const NoiseModel& noise);
-  /// Slopes in double precision, for a fit to the last digit of exact data.
-  void set_exact(bool exact) { stands_ = stands_ && exact == exact_, exact_ = exact; }
+  /// Slopes in double precision, for a fit to the last digit of exact data, and steps of order 4 from then
+  /// on.
+  void set_exact(bool exact) {
+    stands_ = stands_ && exact == exact_, exact_ = exact;
+    if (exact) set_order(4);
+  }
   /// Order of the integrator's steps: 4, or 2 at half the cost.
   void set_order(int order) { stands_ = stands_ && order == order_, order_ = order; }
   int order() const { return order_; }

@@ -142,7 +142,7 @@ class Search {
       return true;
     }
     if (trial && ((trial->own.passes() && trial->own.honest() > others) ||
-                  (trial->own.possible && leaves_nothing_to_predict(trial->at)))) {
+                  (trial->own.possible && leaves_little_to_predict(trial->at)))) {
       const double gain = trial->own.honest();
       adopt(cause, std::move(*trial), gain);
       return true;
@@ -234,7 +234,7 @@ class Search {
     s_.tell(0.1, described(cause));
     auto trial = tried_in_full(s_.record, s_.vehicle, s_.options.exclude, s_.now, next.candidate, s_.fit);
     if (!trial || !trial->own.passes()) return false;
-    if (!explains_its_share(trial->own, cause) && !leaves_nothing_to_predict(trial->at)) return false;
+    if (!explains_its_share(trial->own, cause) && !leaves_little_to_predict(trial->at)) return false;
     const double gain = trial->own.honest();
     adopt(cause, std::move(*trial), gain);
     return true;
@@ -242,7 +242,7 @@ class Search {
 
   // Beside a strong cause a true one is a small share of what is explained, and most of what is left: of what
   // a regression on the flight still predicts.
-  bool leaves_nothing_to_predict(const Standing& there) const {
+  bool leaves_little_to_predict(const Standing& there) const {
     const auto left = [&](const Standing& at) {
       return generic_rival(s_.record, *at.model.theta, at.model.fit, there.form.noise);
     };

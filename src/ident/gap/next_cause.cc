@@ -18,8 +18,8 @@ constexpr double kMaterial = 0.04;
 constexpr double kUneven = 5.0;
 constexpr double kNextToNothing = 0.01;
 // And any but how a sensor is mounted, or a bench value that is wrong by the same everywhere, at least this,
-// in units of the noise, and this many roots of what was found: of 300 second ones below, four fifths were
-// the form of the first.
+// in units of the noise, and this many roots of what was found: of 27 below, in three blind campaigns, 22
+// were the form of the first; above, 15 of 136.
 constexpr double kLittle = 50.0;
 constexpr double kOfRoot = 0.25;
 // A bench value that is wrong by the same in all parts of the flight, and gains so much.

@@ -124,8 +124,8 @@ class Flight {
     rate = body_.rate(x.body, end, outside);
   }
 
-  // Simpson's rule over the midpoint rule, whose end, off by h^3, serves for the rate there: of second order
-  // in what the body does to itself, next to nothing at h, and fourth in what rotors do to its rates.
+  // Simpson's rule over the rates at the start, half way, and where the midpoint rule ends, off by h^3; that
+  // serves for the rate of the next step as well. Of second order on the whole.
   template <class Rotors>
   void simpson(FlightState<S>& x, double h, BodyRate<S>& rate, const BodyRate<S>& k2,
                const Rotors& end) const {

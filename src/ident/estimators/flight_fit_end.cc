@@ -1,0 +1,96 @@
+// The end of a fit: its minimum, its covariance, and what parts of the flight say by themselves.
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/random.h"
+#include "ident/estimators/flight_fit.h"
+#include "ident/estimators/flight_fit_steps.h"
+
+namespace ident {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Fall of the cost that is worth a step without exact slopes.
+constexpr double kWorthAStep = 0.01;
+
+// Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
+MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
+  const double n = static_cast<double>(fit.blocks.size());
+  if (n < 8) return fit.naive_covariance;
+  VectorXd mean = VectorXd::Zero(prior.rows());
+  for (const ScoreBlock& block : fit.blocks) mean += block.score / n;
+  MatrixXd meat = MatrixXd::Zero(prior.rows(), prior.rows());
+  for (const ScoreBlock& block : fit.blocks)
+    meat.noalias() += (block.score - mean) * (block.score - mean).transpose();
+  meat = meat * (n / (n - 1)) + prior;
+  const MatrixXd sandwich = fit.naive_covariance * meat * fit.naive_covariance;
+  // Nothing is known worse with the flight than without it.
+  const VectorXd most = prior.diagonal().cwiseProduct(fit.naive_covariance.diagonal()).cwiseInverse();
+  const VectorXd stretch = sandwich.diagonal()
+                               .cwiseQuotient(fit.naive_covariance.diagonal())
+                               .cwiseMin(most)
+                               .cwiseMax(1.0)
+                               .cwiseSqrt();
+  return stretch.asDiagonal() * fit.naive_covariance * stretch.asDiagonal();
+}
+
+}  // namespace
+
+double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options, bool exact) {
+  const double missed = smoother.reduced().cost - samples_of(smoother.record());
+  return std::max({options.tolerance, options.tolerance_of_misfit * missed, exact ? 0.0 : kWorthAStep});
+}
+
+void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
+  FlightSmoother& smoother = *fit.smoother;
+  smoother.set_exact(options.exact);
+  const bool exact = options.exact || !is_finite(linearize_at(smoother, fit.u));  // too coarse for these
+  smoother.set_exact(exact);
+  linearize_at(smoother, fit.u);
+  smoother.accept();
+  const SharedMinimum at =
+      minimise_shared(smoother, fit.u, worth_a_step(smoother, options, exact), options.most_steps);
+  fit.u = at.u, fit.steps += at.steps;
+  fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
+  fit.information = smoother.reduced().S;
+  const MatrixXd prior = prior_information(theta, fit.u);
+  fit.naive_covariance = inverse_of(fit.information + prior);
+  fit.blocks = smoother.score_blocks(options.block_seconds);
+  fit.covariance = corrected_for_colour(fit, prior);
+  smoother.set_exact(false);
+}
+
+VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const Theta& theta,
+                         double training_share) {
+  const PriorTerms prior = theta.prior(fit.u);
+  MatrixXd H = prior_information(theta, fit.u);
+  VectorXd g = prior.slope.cwiseProduct(prior.residual);
+  for (const ScoreBlock& block : fit.blocks)
+    if (block.to <= training_end(record.arcs[static_cast<std::size_t>(block.arc)], training_share))
+      H += block.information, g += block.score;
+  return fit.u - inverse_of(H) * g;
+}
+
+MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws) {
+  const PriorTerms prior = theta.prior(fit.u);
+  const MatrixXd own = prior_information(theta, fit.u);
+  const auto n = static_cast<int>(fit.blocks.size());
+  Random random(20240229);
+  MatrixXd sum = MatrixXd::Zero(own.rows(), own.cols());
+  for (int draw = 0; draw < draws; ++draw) {
+    MatrixXd H = own;
+    VectorXd g = prior.slope.cwiseProduct(prior.residual);
+    for (Eigen::Index i = 0; i < g.size(); ++i) g[i] += prior.slope[i] * random.normal();
+    for (int b = 0; b < n; ++b) {
+      const ScoreBlock& block = fit.blocks[static_cast<std::size_t>(random.below(n))];
+      H += block.information, g += block.score;
+    }
+    const VectorXd step = inverse_of(H) * g;
+    sum.noalias() += step * step.transpose() / draws;
+  }
+  return sum;
+}
+
+}  // namespace ident
