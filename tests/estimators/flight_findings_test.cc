@@ -202,6 +202,20 @@ TEST(FlightFindings, SpeedsServeWhereTheyContradictTheCommands) {
   EXPECT_THROW(refine_flight(known(truth), logs, {.validate = false}), DataError);
 }
 
+TEST(FlightFindings, TheSignOfACommandIsNone) {
+  for (const char* scenario : {"steps", "mixed"}) {
+    SimulationOptions options;
+    options.scenario = scenario, options.rate = 100, options.duration = 30;
+    FlightLog log = simulate_flight(quad(), options).log;
+    EXPECT_FALSE(commands_contradict_speeds(log)) << scenario;
+    for (auto& column : log.delta) {
+      const double middle = median(column);
+      for (double& delta : column) delta = delta > middle ? 1.0 : 0.0;
+    }
+    EXPECT_TRUE(commands_contradict_speeds(log)) << scenario;
+  }
+}
+
 // A controller makes up for a battery that falls: commands rise, speeds and flight stay.
 TEST(FlightFindings, ABatteryContradictsNoCommands) {
   for (const char* scenario : {"eight", "mixed", "hover"}) {
