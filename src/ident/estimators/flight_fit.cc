@@ -11,8 +11,6 @@ namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
-// Fall of the cost that steps with exact slopes may have to themselves.
-constexpr double kAsGoodAsThere = 1.0;
 // Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
 constexpr double kNearly = 0.3;
 // Change of a noise level at which it is known, and roughly known; rounds for the air's in each round.
@@ -122,12 +120,11 @@ class Fitting {
         turned = smoother_->noise().axes != GustAxes::world;
       }
       const NewtonStep step = newton_step(*smoother_, u_);
-      promised_ = step.fall;
       smoother_->accept();
       const bool done = !turned && (change < (options_.rough_noise ? kRoughly : kKnown) ||
                                     (round >= 5 && change < kNearly));
-      if (done && !(step.fall < kAsGoodAsThere)) break;
-      if (step.fall < kNear && theta_.possible(u_ + step.du)) {
+      if (done && !(step.fall < kNear * theta_.size())) break;
+      if ((done || step.fall < kNear) && theta_.possible(u_ + step.du)) {
         u_ += step.du;
       } else if (is_finite(smoother_->linearize(u_))) {
         trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
@@ -151,16 +148,13 @@ class Fitting {
   FlightFit finish() {
     if (gave_up()) return unfinished();
     smoother_->set_gentle(false);
-    const bool near = options_.exact && promised_ < kNear;  // one more step does it
-    smoother_->set_exact(near);
+    if (options_.exact) smoother_->set_order(4);
     // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
     if (!is_finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
-    if (!near) {
-      const SharedMinimum at = minimise_shared(*smoother_, u_, worth_a_step(*smoother_, options_, false),
-                                               options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
-      u_ = at.u, steps_ += at.steps;
-      if (gave_up()) return unfinished();
-    }
+    const SharedMinimum at = minimise_shared(*smoother_, u_, worth_a_step(*smoother_, options_),
+                                             options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
+    u_ = at.u, steps_ += at.steps;
+    if (gave_up()) return unfinished();
     FlightFit fit;
     fit.u = u_, fit.steps = steps_;
     fit.noise = smoother_->noise();
@@ -205,7 +199,7 @@ class Fitting {
   VectorXd u_;
   std::shared_ptr<FlightSmoother> smoother_;
   int order_;
-  double chunk_ = 0.0, promised_ = kNaN;  // fall of the cost, when the noise was last looked at
+  double chunk_ = 0.0;
   int steps_ = 0;
   bool gone_on_ = false;                           // from an excerpt, which knew the noise
   bool axes_asked_ = false, axes_chosen_ = false;  // here; beyond doubt

@@ -22,7 +22,7 @@ struct FlightFitOptions {
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
   double tolerance_of_misfit = 0.0;  ///< the same as a share of the cost beyond that of noise alone
-  bool exact = true;  ///< ends with slopes in double precision, and steps of order 4: see finish_fit
+  bool exact = true;  ///< ends with steps of order 4, and slopes as precise as shows: see finish_fit
   int order = 4;      ///< of the integrator's steps until then; 2, at half the cost, where that does not show
   std::shared_ptr<const FlightSmoother> near;  ///< of a like model, whose states to start from
   int threads = 0;
@@ -47,12 +47,12 @@ struct FlightFit {
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
 /// Fall of the cost that a step has to promise: more than the tolerance, than a share of what the model
-/// misses altogether, and than slopes that are not exact can tell.
-double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options, bool exact);
+/// misses altogether, and than what matters where digits do not.
+double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options);
 
 /// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
-/// Slopes are exact if asked for, and steps of order 4: where links let next to no noise through, the
-/// rounding of single precision would pass for information. For a fit that was made with a larger tolerance.
+/// Steps are of order 4 if it is to be exact, and slopes then in double precision where the rounding of single
+/// precision would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
 /// The shared unknowns as the first `training_share` of every arc would have them: one Newton step from the

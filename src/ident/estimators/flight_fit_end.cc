@@ -12,8 +12,20 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Fall of the cost that is worth a step without exact slopes.
+// Fall of the cost that is worth a step where digits do not matter.
 constexpr double kWorthAStep = 0.01;
+// Slopes in single precision have errors of 1e-7, and information errors of about 1e-6 times the root of what
+// flight would say of a constant, were all states known, over what it does say. At the root of this limit no
+// error was above a hundredth in any direction.
+constexpr double kSingleServes = 1e6;
+
+// Whether the rounding of slopes in single precision could pass for information: where there is next to no
+// noise, so that little of what the rows say of a constant is left once states are free.
+bool rounding_shows(const FlightSmoother& smoother, const MatrixXd& covariance) {
+  const VectorXd held = smoother.information_of_held_states();
+  const auto n = held.size();
+  return n > 0 && !(held.cwiseProduct(covariance.diagonal().head(n)).maxCoeff() < kSingleServes);
+}
 
 // Sandwich over blocks of time, never below the naive covariance in any unknown, nor above the prior.
 MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
@@ -38,21 +50,28 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
 
 }  // namespace
 
-double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options, bool exact) {
+double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options) {
   const double missed = smoother.reduced().cost - samples_of(smoother.record());
-  return std::max({options.tolerance, options.tolerance_of_misfit * missed, exact ? 0.0 : kWorthAStep});
+  return std::max({options.tolerance, options.tolerance_of_misfit * missed, options.exact ? 0.0 : kWorthAStep});
 }
 
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
   FlightSmoother& smoother = *fit.smoother;
-  smoother.set_exact(options.exact);
-  const bool exact = options.exact || !is_finite(linearize_at(smoother, fit.u));  // too coarse for these
-  smoother.set_exact(exact);
-  linearize_at(smoother, fit.u);
-  smoother.accept();
-  const SharedMinimum at =
-      minimise_shared(smoother, fit.u, worth_a_step(smoother, options, exact), options.most_steps);
-  fit.u = at.u, fit.steps += at.steps;
+  const auto minimum = [&](bool in_double) {
+    smoother.set_exact(in_double);
+    if (!is_finite(linearize_at(smoother, fit.u)) && !in_double) return false;
+    smoother.accept();
+    const SharedMinimum at =
+        minimise_shared(smoother, fit.u, worth_a_step(smoother, options), options.most_steps);
+    fit.u = at.u, fit.steps += at.steps;
+    return true;
+  };
+  const auto covariance = [&] {
+    return inverse_of(smoother.reduced().S + prior_information(theta, fit.u));
+  };
+  if (options.exact) smoother.set_order(4);
+  // Slopes in single precision may be too coarse to simulate anything.
+  if (!minimum(false) || (options.exact && rounding_shows(smoother, covariance()))) minimum(true);
   fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
   fit.information = smoother.reduced().S;
   const MatrixXd prior = prior_information(theta, fit.u);

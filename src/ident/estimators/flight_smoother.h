@@ -65,6 +65,8 @@ class FlightSmoother {
   const ReducedSystem& linearize(const Eigen::VectorXd& u, bool leverage = false);
   /// Eliminates the last linearisation once more, after a change of the process noise.
   const ReducedSystem& relinearize();
+  /// What the last linearisation would say of each constant, were all states known.
+  Eigen::VectorXd information_of_held_states() const;
   /// What the last elimination left.
   const ReducedSystem& reduced() const { return reduced_; }
   /// Whether the last linearisation is at u, of the present sensor noise and kind of slopes.

@@ -73,6 +73,12 @@ Moments FlightSmoother::moments() const {
   return sum;
 }
 
+VectorXd FlightSmoother::information_of_held_states() const {
+  VectorXd sum = VectorXd::Zero(theta_->size());
+  for (const ChunkResult& r : results_) sum += chunk::A(r).diagonal().tail(sum.size());
+  return sum;
+}
+
 double FlightSmoother::surprise() const {
   const PriorTerms prior = theta_->prior(trial_u_);
   double sum = reduced_.cost + prior.residual.squaredNorm() + reduced_.log_det;
