@@ -13,6 +13,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -33,6 +35,8 @@ struct Context {
   std::vector<std::string> used;
   /// Decisions worth telling (separator, units); shown on stderr, in JSON as `notices`.
   std::vector<std::string> notices;
+  /// Hashes of large inputs, found beside the work.
+  std::map<std::string, std::future<std::string>> hashes;
   Shown shown = Shown::pictures;  ///< of the result
   /// Files to write. They appear together after the command has succeeded, or not at all.
   Outputs outputs;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "ident/io/read_flight_log.h"
+#include "ident/io/sha256.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/report/campaign_report.h"
 
@@ -104,6 +105,8 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
       map = read_log_map(log.map);
       context.used.push_back(log.map);
     }
+    if (std::filesystem::is_regular_file(log.file))  // a pipe can be read only once
+      context.hashes.try_emplace(log.file, std::async(std::launch::async, sha256_of_file, log.file));
     input.logs.push_back(read_flight_log(log.file, input.vehicle, map));
     refuse_twice(input.logs);
     for (const std::string& notice : input.logs.back().notices) context.notices.push_back(notice);

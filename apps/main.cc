@@ -1,4 +1,8 @@
 // Entry of the program `ident`: finds the subcommand, turns errors into exit status.
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <iostream>
 #include <new>
 
@@ -35,6 +39,17 @@ std::vector<Registered> add_commands(CLI::App& program) {
   return list;
 }
 
+// Logs and tables come and go in vectors of some hundred kilobytes: given back to the system each time, a
+// tenth of a refinement would go to getting them again.
+void keep_freed_memory() {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int kMost = 1 << 25;  // the library takes no more for the first of these
+  mallopt(M_MMAP_THRESHOLD, kMost);
+  mallopt(M_TRIM_THRESHOLD, 8 * kMost);
+  mallopt(M_TOP_PAD, kMost / 4);
+#endif
+}
+
 int run(int argc, char** argv) {
   CLI::App program(
       "Identifies multirotors from bench and flight data and diagnoses what a simulation lacks.");
@@ -69,6 +84,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using ident::ExitStatus;
   try {
+    ident::app::keep_freed_memory();
     return ident::app::run(argc, argv);
   } catch (const ident::Error& error) {
     std::cerr << "ident: " << error.what() << "\n";

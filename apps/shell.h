@@ -25,7 +25,7 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
 void add_report(Outputs& outputs, const std::vector<ReportFile>& files);
 
 /// Adds to a result what a stranger needs to repeat it: the command line, the hashes of all files read.
-void add_provenance(Result& result, const Context& context);
+void add_provenance(Result& result, Context& context);
 
 /// What to run next, as a command line; empty where nothing suggests itself.
 std::string next_command(const Result& result, const Context& context);

@@ -69,12 +69,16 @@ std::string notes(const std::vector<std::string>& notices) {
 
 }  // namespace
 
-void add_provenance(Result& result, const Context& context) {
+void add_provenance(Result& result, Context& context) {
+  const auto hash_of = [&](const std::string& path) {
+    const auto begun = context.hashes.extract(path);
+    return begun ? begun.mapped().get() : sha256_of_file(path);
+  };
   std::vector<std::string> paths = result.inputs;
   paths.insert(paths.end(), context.used.begin(), context.used.end());
   for (const std::string& path : paths) {
     const bool known = std::ranges::any_of(result.files, [&](const InputFile& f) { return f.path == path; });
-    if (!known && fs::is_regular_file(path)) result.files.push_back({path, sha256_of_file(path)});
+    if (!known && fs::is_regular_file(path)) result.files.push_back({path, hash_of(path)});
   }
   result.command_line = context.command_line;
   if (!context.notices.empty()) result.extra["notices"] = context.notices;

@@ -208,11 +208,29 @@ TEST(FlightFindings, TheSignOfACommandIsNone) {
     options.scenario = scenario, options.rate = 100, options.duration = 30;
     FlightLog log = simulate_flight(quad(), options).log;
     EXPECT_FALSE(commands_contradict_speeds(log)) << scenario;
+    FlightLog turned = log;
+    for (auto& column : turned.delta)
+      for (double& delta : column) delta = 1 - delta;
+    EXPECT_TRUE(commands_contradict_speeds(turned)) << scenario;
     for (auto& column : log.delta) {
       const double middle = median(column);
       for (double& delta : column) delta = delta > middle ? 1.0 : 0.0;
     }
     EXPECT_TRUE(commands_contradict_speeds(log)) << scenario;
+  }
+}
+
+// Slow or fast, hardly damped or hardly moving: motors are no reason to distrust commands.
+TEST(FlightFindings, AnyMotorFollowsItsCommand) {
+  for (const auto& [omega_m, zeta_m] : {std::pair{5.0, 0.4}, {5.0, 2.0}, {80.0, 0.4}, {80.0, 2.0}}) {
+    Vehicle vehicle = quad();
+    vehicle.parameters["omega_m"].value = omega_m, vehicle.parameters["zeta_m"].value = zeta_m;
+    for (const char* scenario : {"steps", "mixed", "eight"}) {
+      SimulationOptions options;
+      options.scenario = scenario, options.rate = 250, options.duration = 30;
+      EXPECT_FALSE(commands_contradict_speeds(simulate_flight(vehicle, options).log))
+          << scenario << ", " << omega_m << ", " << zeta_m;
+    }
   }
 }
 

@@ -58,13 +58,15 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n)
       P(layout.motors + n, layout.motors + n) += noise.q_motor * horizon / 2;
     one.covariance = P.data();
+    one.jacobian = options.floors;
     ChunkResult result;
     PredictionWindow window;
     if (one.end >= arc.rows()) return window;  // ends before the window does
     evaluate_chunk(one, result);
     window.log = arc.log, window.t = arc.t[starts[w].row];
     window.square = result.square, window.count = result.count;
-    for (std::size_t c = 0; c < kChannels; ++c) window.floor[c] = result.count[c] + result.leverage[c];
+    for (std::size_t c = 0; c < kChannels; ++c)
+      window.floor[c] = options.floors ? result.count[c] + result.leverage[c] : kNaN;
     return window;
   };
   for (std::size_t h = 0; h < options.horizons.size(); ++h) {

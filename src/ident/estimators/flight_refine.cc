@@ -45,8 +45,8 @@ Section validation(const FlightRecord& held_out, const Theta& theta, const Vecto
               {"horizon s", "parameters before", "refined", "floor", "windows"},
               {}};
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  const PredictionOptions options;
-  const auto stated = predict_windows(held_out, theta, before, fit.noise, options);
+  const PredictionOptions options, errors{.floors = false};
+  const auto stated = predict_windows(held_out, theta, before, fit.noise, errors);
   const auto refined = predict_windows(held_out, theta, fit.u, fit.noise, options);
   for (std::size_t h = 0; h < options.horizons.size(); ++h) {
     const double horizon = options.horizons[h];

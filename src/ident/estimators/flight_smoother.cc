@@ -259,7 +259,7 @@ std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
     if (places_[k].linked) continue;
     // Not linked further on: D holds all that is known of this state from the past.
     const MatrixXd E = chunk::E(results_[k], n).leftCols(n);
-    ends.push_back({results_[k].x_end, E * accepted().P[k].leftCols(n) * E.transpose()});
+    ends.push_back({results_[k].x_end, E * past_covariance(accepted(), k).leftCols(n) * E.transpose()});
   }
   return ends;
 }

@@ -148,11 +148,11 @@ class FlightSmoother {
   std::vector<Eigen::VectorXd> defects() const;
 
  private:
-  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). P is the covariance of x_k from the arc before the next
-  // chunk or, once `smoothed`, from all of it; `cross` that of x_(k+1) and x_k. Shared unknowns are held in
-  // both. Rows are padded; Gt is G transposed.
+  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). L L' is the information on x_k from the arc before the next
+  // chunk. Once `smoothed`, P is its covariance from all of the arc, `cross` that of x_(k+1) and x_k. Shared
+  // unknowns are held in all three. Rows are padded but for L; Gt is G transposed.
   struct Elimination {
-    std::vector<chunk::RowMatrix> Gt, B, P, cross;
+    std::vector<chunk::RowMatrix> Gt, B, L, P, cross;
     std::vector<Eigen::VectorXd> f;
     bool smoothed = false;
   };
@@ -186,6 +186,7 @@ class FlightSmoother {
   std::vector<chunk::RowMatrix> state_slopes() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void set_axes();
+  chunk::RowMatrix past_covariance(const Elimination& el, std::size_t k) const;
   void posterior_covariances(Elimination& el) const;
   Elimination& accepted() { return eliminations_[accepted_at_]; }
   const Elimination& accepted() const { return eliminations_[accepted_at_]; }

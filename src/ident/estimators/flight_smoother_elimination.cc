@@ -32,7 +32,7 @@ struct FlightSmoother::ArcElimination {
         E(Matrix::Zero(n, from + padded(slopes + 1))),
         WE(own),
         U(Matrix::Zero(n, from)),
-        solved(Matrix::Zero(n, from + shared + from)),
+        solved(Matrix::Zero(n, from + shared)),
         sum(Matrix::Zero(m, shared)) {}
 
   auto D() { return own.leftCols(n); }
@@ -45,7 +45,7 @@ struct FlightSmoother::ArcElimination {
   Matrix own, next;  // [D | B f] of this chunk, and what it passes to the next one
   Matrix E, WE;      // slope of the link, and weighted, with the weighted defect
   Matrix U;          // over the next state
-  Matrix solved;     // [U | B f | 1], then L^-1 of it, then D^-1 of it
+  Matrix solved;     // [U | B f], then L^-1 of it, then D^-1 of it
   Matrix sum;        // [S g]
   double cost = 0.0, log_det = 0.0;
 };
@@ -143,16 +143,15 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
       damp_undetermined(arc.own, n);
       llt.compute(arc.D());
     }
-    const ArcElimination::Matrix& L = llt.matrixLLT();
+    const ArcElimination::Matrix& L = el.L[k] = llt.matrixLLT();
     arc.log_det += 2 * L.diagonal().array().log().sum();
     arc.solved.leftCols(from) = arc.U;
     arc.solved.middleCols(from, arc.shared) = arc.own.rightCols(arc.shared);
-    arc.solved.middleCols(right, n).setIdentity();
-    dense.forward(rows_in(L), n, rows_of(arc.solved), right + from);
+    dense.forward(rows_in(L), n, rows_of(arc.solved), right);
     dense.add_products(rows_of(arc.sum), solved(from), m, solved(from), arc.shared, n, -1.0);
     arc.cost -= arc.solved.col(from + m).squaredNorm();
     if (linked) dense.add_products(rows_of(arc.next), solved(0), n, solved(0), right, n, -1.0);
-    dense.backward(rows_in(L), n, rows_of(arc.solved), right + from);
+    dense.backward(rows_in(L), n, rows_of(arc.solved), right);
     if (linked) {
       el.Gt[k].setZero(n, from);
       el.Gt[k].leftCols(n) = arc.solved.leftCols(n).transpose();
@@ -160,7 +159,6 @@ void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSy
     el.B[k] = arc.solved.middleCols(from, padded(m));
     el.B[k].rightCols(padded(m) - m).setZero();
     el.f[k] = arc.solved.col(from + m);
-    el.P[k] = arc.solved.middleCols(right, from);
   }
   sum = {arc.cost, arc.g(), arc.S(), arc.log_det};
 }
@@ -170,7 +168,7 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
   const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;
-  el.Gt.resize(K), el.B.resize(K), el.f.resize(K), el.P.resize(K), el.cross.resize(K);
+  el.Gt.resize(K), el.B.resize(K), el.f.resize(K), el.L.resize(K), el.P.resize(K), el.cross.resize(K);
   el.smoothed = false;
   std::vector<ReducedSystem> parts(arcs);
   in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a], held); });
@@ -183,12 +181,23 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
 }
 
+// Covariance of the state of chunk k, from the arc before the next one.
+chunk::RowMatrix FlightSmoother::past_covariance(const Elimination& el, std::size_t k) const {
+  const int n = record_->layout.size, columns = padded(n);
+  const DenseRows& dense = dense_rows();
+  chunk::RowMatrix P = chunk::RowMatrix::Identity(n, columns);
+  dense.forward(rows_in(el.L[k]), n, rows_of(P), columns);
+  dense.backward(rows_in(el.L[k]), n, rows_of(P), columns);
+  return P;
+}
+
 // Backward recursion for the posterior covariance of each state and of neighbours, shared unknowns held.
 void FlightSmoother::posterior_covariances(Elimination& el) const {
   if (el.smoothed) return;
   el.smoothed = true;
   const int n = record_->layout.size;
   const DenseRows& dense = dense_rows();
+  in_parallel(places_.size(), [&](std::size_t k) { el.P[k] = past_covariance(el, k); });
   in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
     for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
       if (!places_[k].linked) continue;

@@ -176,7 +176,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   Eigen::VectorXd stated = search.base.fit.u;
   stated.head(search.base.theta->constants_count()).setZero();
   const NoiseModel& noise = search.form.noise;
-  const auto a = predict_windows(held_out, *search.base.theta, stated, noise, windows);
+  PredictionOptions errors = windows;
+  errors.floors = false;
+  const auto a = predict_windows(held_out, *search.base.theta, stated, noise, errors);
   const auto b = predict_windows(held_out, best, u_best, noise, windows);
   for (std::size_t h = 0; h < windows.horizons.size(); ++h) {
     const double horizon = windows.horizons[h];
