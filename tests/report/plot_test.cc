@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "ident/report/channel_colour.h"
 #include "ident/report/decimate.h"
 #include "ident/report/plot_data.h"
 #include "ident/report/plot_svg.h"
 #include "ident/report/scale.h"
+#include "ident/report/svg.h"
 
 namespace ident {
 namespace {
@@ -112,6 +114,21 @@ TEST(PlotSvg, SurvivesPlotsWithoutDrawableData) {
   EXPECT_NE(plot_svg(plot, "a").find("</svg>"), std::string::npos);
   plot.cells = Eigen::MatrixXd::Constant(2, 2, kNaN);
   EXPECT_EQ(plot_svg(plot, "a").find("opacity:nan"), std::string::npos);
+}
+
+TEST(PlotSvg, NumbersAlongAnAxisDoNotRunIntoEachOther) {
+  Plot plot{.title = "t"};
+  plot.series = {{.name = "p", .x = {-16000, -9000}, .y = {1, 2}}};
+  const std::string svg = plot_svg(plot, "a", PlotWidth::half);
+  const std::regex label(R"re(<text x="([0-9.]+)"[^>]*>([^<]*000)<)re");
+  double end = -1e9;
+  int labels = 0;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), label), none; at != none; ++at, ++labels) {
+    const double middle = std::stod((*at)[1]), half = label_width((*at)[2].str()) / 2;
+    EXPECT_GT(middle - half, end) << (*at)[2];
+    end = middle + half;
+  }
+  EXPECT_GE(labels, 3);
 }
 
 TEST(PlotSvg, CarriesItsColoursWhenItStandsAlone) {

@@ -145,7 +145,7 @@ double seconds_of(const FlightLog& log, const Pieces& all) {
 Pieces whole_pieces(const FlightLog& log, double history, double longest_gap,
                     std::vector<Warning>& warnings) {
   const std::vector<bool> fly = in_flight(log, warnings);
-  const Pieces loose = pieces(log, fly, longest_gap, history);
+  Pieces loose = pieces(log, fly, longest_gap, history);
   if (!log.has_commands()) return loose;
   const double gap =
       std::clamp(kMissedRows * usual_step(log), std::min(kShortestGap, longest_gap), longest_gap);

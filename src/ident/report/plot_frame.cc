@@ -71,10 +71,13 @@ double PlotFrame::draw(Svg& svg, const std::vector<LegendEntry>& legend) {
   height = inner_height;
   const double base = corner.y + height;
 
+  double taken = -1e9;  // to here by the last label; numbers that do not fit beside it are left out
   for (const Tick& tick : horizontal.ticks()) {
-    const double x = corner.x + horizontal.position(tick.value) * width;
+    const double x = corner.x + horizontal.position(tick.value) * width, half = label_width(tick.label) / 2;
     if (horizontal.has_grid()) svg.line({x, corner.y}, {x, base}, tick.value == 0 ? "zero" : "grid");
+    if (horizontal.has_grid() && x - half < taken + kTickGap) continue;
     svg.text({x, base + 18}, tick.label, "middle");
+    taken = x + half;
   }
   for (const Tick& tick : vertical.ticks()) {
     const double share = vertical.position(tick.value);
