@@ -118,7 +118,7 @@ TEST(PlotSvg, SurvivesPlotsWithoutDrawableData) {
 
 TEST(PlotSvg, NumbersAlongAnAxisDoNotRunIntoEachOther) {
   Plot plot{.title = "t"};
-  plot.series = {{.name = "p", .x = {-16480, -9050}, .y = {1, 2}}};
+  plot.series = {{.name = "p", .x = {-16200, -9000}, .y = {1, 2}}};
   const std::string svg = plot_svg(plot, "a", PlotWidth::half);
   const std::regex label(R"re(<text x="([0-9.]+)"[^>]*>([^<]*000)<)re");
   double end = -1e9;
