@@ -117,10 +117,10 @@ TEST(PlotSvg, SurvivesPlotsWithoutDrawableData) {
 }
 
 TEST(PlotSvg, NumbersAlongAnAxisDoNotRunIntoEachOther) {
-  Plot plot{.title = "t"};
-  plot.series = {{.name = "p", .x = {-16200, -9000}, .y = {1, 2}}};
+  Plot plot{.title = "t", .x_label = "x", .y_label = "y"};
+  plot.series = {{.name = "p", .x = {-16200, -9000}, .y = {-1.62e4, -9000}}};
   const std::string svg = plot_svg(plot, "a", PlotWidth::half);
-  const std::regex label(R"re(<text x="([0-9.]+)"[^>]*>([^<]*000)<)re");
+  const std::regex label(R"re(<text x="([0-9.]+)" y="[0-9.]+" class="middle">([^<]*000)<)re");
   double end = -1e9;
   int labels = 0;
   for (std::sregex_iterator at(svg.begin(), svg.end(), label), none; at != none; ++at, ++labels) {
