@@ -73,7 +73,8 @@ std::vector<Outcome> stored(const std::string& file) {
   return all;
 }
 
-void fly_missing(std::uint64_t first, int count, bool gusts, const std::string& file, int jobs) {
+void fly_missing(std::uint64_t first, int count, const CaseOptions& options, const std::string& file,
+                 int jobs) {
   std::set<std::uint64_t> done;
   for (const Outcome& o : stored(file)) done.insert(o.seed);
   std::ofstream out(file, std::ios::app);
@@ -84,7 +85,7 @@ void fly_missing(std::uint64_t first, int count, bool gusts, const std::string& 
       if (done.contains(seed)) continue;
       Outcome outcome;
       try {
-        outcome = refine_case(random_case(seed, {.turbulence = gusts}));
+        outcome = refine_case(random_case(seed, options));
       } catch (const std::exception& e) {
         outcome = {.seed = seed, .failure = e.what()};
       }
@@ -102,13 +103,20 @@ void fly_missing(std::uint64_t first, int count, bool gusts, const std::string& 
 
 int main(int argc, char** argv) {
   using namespace ident::flight_campaign;
-  const std::string air = argc > 2 ? argv[2] : "";
-  if (argc < 4 || (air != "still" && air != "gusts")) {
-    fmt::print(stderr, "usage: refine_campaign COUNT still|gusts FILE [FIRST_SEED [JOBS]]\n");
+  const std::map<std::string, CaseOptions> kinds = {
+      {"still", {}},
+      {"gusts", {.turbulence = true}},
+      {"still-speeds", {.commands = false}},
+      {"gusts-speeds", {.turbulence = true, .commands = false}}};
+  const auto kind = kinds.find(argc > 2 ? argv[2] : "");
+  if (argc < 4 || kind == kinds.end()) {
+    fmt::print(stderr,
+               "usage: refine_campaign COUNT KIND FILE [FIRST_SEED [JOBS]]\n\n"
+               "KIND: still, gusts; still-speeds, gusts-speeds without commands\n");
     return 2;
   }
   const std::uint64_t first = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;
-  fly_missing(first, std::atoi(argv[1]), air == "gusts", argv[3], argc > 5 ? std::atoi(argv[5]) : 1);
+  fly_missing(first, std::atoi(argv[1]), kind->second, argv[3], argc > 5 ? std::atoi(argv[5]) : 1);
   print_table(stored(argv[3]));
   return 0;
 }

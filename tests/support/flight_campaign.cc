@@ -73,7 +73,7 @@ SimulatedFlight flown(const Vehicle& v, SimulationOptions options, std::string& 
   }
 }
 
-void fly(Case& c, double seconds) {
+void fly(Case& c, double seconds, bool commands) {
   SimulationOptions options;
   options.duration = seconds;
   options.turbulence = c.gusts;
@@ -83,6 +83,7 @@ void fly(Case& c, double seconds) {
     options.seed = 10 * c.seed + i + 1;
     c.flights.push_back(flown(c.truth, options, c.scenarios[i]));
     c.flights.back().log.file = "log" + std::to_string(i + 1);
+    if (!commands) c.flights.back().log.delta.clear();
   }
 }
 
@@ -134,11 +135,11 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   c.seed = seed;
   c.truth = drawn_vehicle(seed);
   c.stated = measured(c.truth, random);
-  c.rotor_speeds = random.below(4) != 0;
+  c.rotor_speeds = random.below(4) != 0 || !options.commands;
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
   c.scenarios = {"mixed", second[static_cast<std::size_t>(random.below(4))]};
   const double share = random.log_uniform(0.07, 0.70);
-  fly(c, options.seconds);
+  fly(c, options.seconds, options.commands);
   if (!options.turbulence) return c;
   const Motion still = motion_of(c.flights);
   c.gusts = share * still.push / kPush;
@@ -146,7 +147,7 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   double turn = 0;
   for (const char* J : {"Jxx", "Jyy", "Jzz"}) turn += std::pow(1 / c.truth.value(J), 2) / 3;
   c.turn_share = kTurn * c.truth.value("m") * c.gusts * std::sqrt(turn) / still.turn;
-  fly(c, options.seconds);
+  fly(c, options.seconds, options.commands);
   return c;
 }
 
@@ -154,7 +155,9 @@ std::vector<std::pair<std::string, double>> bounds(const Case& c) {
   const std::vector<double> p = parameter_vector(c.truth);
   const std::vector<FlightLog> logs = c.logs();
   const FlightRecord record = make_flight_record(c.truth, p, logs);
-  const Theta theta(p, free_constants(c.stated, p), record.logs, record.signals.rates);
+  std::vector<FreeConstant> constants = free_constants(c.stated, p);
+  if (!record.signals.commands) leave_out_motors(constants);
+  const Theta theta(p, constants, record.logs, record.signals.rates);
   FlightSmoother smoother(record, theta, true_noise(c, record), c.gusts > 0 ? 0.02 : 0.25);
   smoother.set_exact(true);
   smoother.set_states(true_states(c, smoother));

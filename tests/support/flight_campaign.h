@@ -30,6 +30,7 @@ struct Case {
 struct CaseOptions {
   double seconds = 40.0;  ///< of each of two logs
   bool turbulence = false;
+  bool commands = true;  ///< without, measured rotor speeds are the input
 };
 
 /// Layouts 4sp, plus and x; a quarter without rotor speeds; each constant but the mass (0.2 %) known to 5 to

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/core/parallel.h"
 #include "ident/estimators/flight_record_start.h"
+#include "ident/estimators/flight_speed_smoother.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -210,10 +212,25 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
       put(log.Omega[n], kRotorChannel + static_cast<int>(n));
   }
   inputs.t = arc.t;
-  for (const auto& column : log.Omega) inputs.Omega.push_back(interpolated(arc.t, cut(column)));
+  inputs.Omega.resize(log.Omega.size());
+  std::vector<std::vector<double>> rougher(log.Omega.size());
+  in_parallel(log.Omega.size(), [&](std::size_t n) {
+    const std::vector<double> column = cut(log.Omega[n]);
+    if (log.has_commands()) {
+      inputs.Omega[n] = interpolated(arc.t, column);
+      return;
+    }
+    SmoothedSpeed speed = smoothed_speed(arc.t, column);
+    inputs.Omega[n] = std::move(speed.likely), rougher[n] = std::move(speed.rougher);
+  });
   if (!log.vbat.empty()) {
     inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
     for (double& v : inputs.voltage_ratio) v = std::max(v / v0, 0.05);
+  }
+  if (!log.has_commands()) {
+    FlightInputs other = inputs;
+    other.Omega = std::move(rougher);
+    arc.rougher = std::make_shared<const FlightInputs>(std::move(other));
   }
   arc.inputs = std::make_shared<const FlightInputs>(std::move(inputs));
   return arc;

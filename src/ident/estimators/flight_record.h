@@ -15,11 +15,12 @@ namespace ident {
 /// An uninterrupted piece of one log.
 struct FlightArc {
   int log = 0;
-  std::vector<double> t;                       ///< s
-  std::vector<double> y;                       ///< [row][kChannels], NaN where not sampled
-  std::vector<double> q;                       ///< [row][4] measured attitude
-  std::shared_ptr<const FlightInputs> inputs;  ///< of the whole log; pieces of an arc share them
-  std::vector<FlightState<double>> start;      ///< state of each row as read off the measurements
+  std::vector<double> t;                        ///< s
+  std::vector<double> y;                        ///< [row][kChannels], NaN where not sampled
+  std::vector<double> q;                        ///< [row][4] measured attitude
+  std::shared_ptr<const FlightInputs> inputs;   ///< of the whole log; pieces of an arc share them
+  std::shared_ptr<const FlightInputs> rougher;  ///< where speeds are the input: the same, smoothed less
+  std::vector<FlightState<double>> start;       ///< state of each row as read off the measurements
 
   std::size_t rows() const { return t.size(); }
   /// The rows [begin, end) as an arc of their own.

@@ -23,7 +23,7 @@ FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
                                      v.begin() + static_cast<std::ptrdiff_t>(end * width));
   };
   out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.start = range(start, 1);
-  out.inputs = inputs;
+  out.inputs = inputs, out.rougher = rougher;
   return out;
 }
 

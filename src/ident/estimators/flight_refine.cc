@@ -13,6 +13,7 @@
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
 #include "ident/estimators/flight_inertia.h"
+#include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
@@ -233,6 +234,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   }
   const Theta& theta = *free;
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
+  const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);
+  fit.covariance += moved * moved.transpose();
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);
   result.parameters = flight_parameters(theta, body, "flightlog");

@@ -66,24 +66,37 @@ std::vector<Track> rotor_speeds(const FlightArc& arc, const Vehicle& vehicle, st
   return out;
 }
 
-Windows windows_at(const FlightRecord& record, const std::vector<std::vector<Track>>& speeds, double lag,
-                   double shift) {
-  const ChangeWindows windows = change_windows(lag, record.interval);
+/// What is compared of an arc.
+struct Streams {
+  Track3 rates;
+  std::vector<Track> thrust, spin;  ///< integral of Omega^2, Omega of each column
+};
+
+Streams streams_of(const FlightArc& arc, const std::vector<Track>& speeds) {
+  Streams out;
+  for (std::size_t i = 0; i < arc.rows(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      out.rates[k].push_back(arc.start[i].body.w_B[static_cast<Eigen::Index>(k)]);
+  for (const Track& speed : speeds) {
+    Track square = speed;
+    for (double& v : square) v *= v;
+    out.thrust.push_back(integral(arc.t, square)), out.spin.push_back(speed);
+  }
+  return out;
+}
+
+Windows windows_at(const std::vector<Streams>& arcs, double interval, double lag, double shift) {
+  const ChangeWindows windows = change_windows(lag, interval);
   const long rows = std::lround(shift * static_cast<double>(windows.margin));
+  const std::size_t columns = arcs[0].thrust.size();
   Windows out;
   Track3 rates;
-  out.thrust.resize(speeds[0].size()), out.spin.resize(speeds[0].size());
-  for (std::size_t a = 0; a < record.arcs.size(); ++a) {
-    const FlightArc& arc = record.arcs[a];
-    Track3 w;
-    for (std::size_t i = 0; i < arc.rows(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) w[k].push_back(arc.start[i].body.w_B[static_cast<Eigen::Index>(k)]);
+  out.thrust.resize(columns), out.spin.resize(columns);
+  for (const Streams& arc : arcs) {
+    const Track3& w = arc.rates;
     append(rates, {changes(w[0], windows), changes(w[1], windows), changes(w[2], windows)});
-    for (std::size_t n = 0; n < speeds[a].size(); ++n) {
-      Track square = speeds[a][n];
-      for (double& v : square) v *= v;
-      const Track thrust = changes(integral(arc.t, square), windows, rows);
-      const Track spin = changes(speeds[a][n], windows, rows);
+    for (std::size_t n = 0; n < columns; ++n) {
+      const Track thrust = changes(arc.thrust[n], windows, rows), spin = changes(arc.spin[n], windows, rows);
       out.thrust[n].insert(out.thrust[n].end(), thrust.begin(), thrust.end());
       out.spin[n].insert(out.spin[n].end(), spin.begin(), spin.end());
     }
@@ -115,12 +128,12 @@ std::array<double, 3> correlation_of(const Windows& windows, const Vehicle& vehi
 }
 
 /// Spread of the whole thrust between windows over its mean.
-double thrust_variation(const Windows& windows, const std::vector<std::vector<Track>>& speeds, double lag) {
+double thrust_variation(const Windows& windows, const std::vector<Streams>& arcs, double lag) {
   Track sum(windows.count(), 0.0), mean_square;
   for (const Track& one : windows.thrust)
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i];
-  for (const std::vector<Track>& arc : speeds)
-    for (const Track& rotor : arc) mean_square.push_back(std::pow(root_mean_square(rotor), 2));
+  for (const Streams& arc : arcs)
+    for (const Track& rotor : arc.spin) mean_square.push_back(std::pow(root_mean_square(rotor), 2));
   return mad_scale(sum) / (lag * static_cast<double>(windows.thrust.size()) * mean(mean_square));
 }
 
@@ -223,16 +236,16 @@ constexpr std::array kLags = {0.04, 0.15};
 constexpr std::array kShifts = {0.0, -0.5, 0.5, 1.0};
 constexpr std::size_t kTrials = kLags.size() * kShifts.size();
 
-Trial trial(const FlightRecord& record, const std::vector<std::vector<Track>>& speeds, const Vehicle& vehicle,
+Trial trial(const std::vector<Streams>& arcs, double interval, const Vehicle& vehicle,
             std::span<const double> p, std::size_t number) {
   const double lag = kLags[number / kShifts.size()];
-  const Windows windows = windows_at(record, speeds, lag, kShifts[number % kShifts.size()]);
+  const Windows windows = windows_at(arcs, interval, lag, kShifts[number % kShifts.size()]);
   Trial out;
   out.windows = static_cast<double>(windows.count());
   if (out.windows < kFewWindows) return out;
   out.all = hypotheses(windows, vehicle, p);
   out.most = std::ranges::max(out.all, {}, &Hypothesis::total).total();
-  out.thrust_variation = thrust_variation(windows, speeds, lag);
+  out.thrust_variation = thrust_variation(windows, arcs, lag);
   return out;
 }
 
@@ -245,10 +258,12 @@ RotorAgreement test_rotors(const FlightRecord& record, const Vehicle& vehicle, s
   if (!s.rates && !s.attitude) return out;
   for (const bool measured : {false, true}) {
     if (measured ? !s.rotor_speeds : !s.commands) continue;
-    std::vector<std::vector<Track>> speeds;
-    for (const FlightArc& arc : record.arcs) speeds.push_back(rotor_speeds(arc, vehicle, p, measured));
+    std::vector<Streams> arcs;
+    for (const FlightArc& arc : record.arcs)
+      arcs.push_back(streams_of(arc, rotor_speeds(arc, vehicle, p, measured)));
     std::array<Trial, kTrials> trials;
-    in_parallel(trials.size(), [&](std::size_t i) { trials[i] = trial(record, speeds, vehicle, p, i); });
+    in_parallel(trials.size(),
+                [&](std::size_t i) { trials[i] = trial(arcs, record.interval, vehicle, p, i); });
     const Trial& best = *std::ranges::max_element(trials, {}, &Trial::most);
     if (best.all.empty()) continue;
     out.correlation = best.all[0].r, out.windows = best.windows;

@@ -26,10 +26,13 @@ constexpr double kOther = 0.75;          ///< correlation with another axis that
 constexpr double kOwn = 0.45;            ///< correlation with its own axis below which it is not its own
 constexpr std::size_t kFewWindows = 40;  ///< too few to judge
 
-struct Pairs {
+/// Two streams of an arc that should change alike.
+struct Streams {
   Track3 seen, told;
 };
-using MakePairs = std::function<Pairs(const FlightArc&, const ChangeWindows&, long shift)>;
+using MakeStreams = std::function<Streams(const FlightArc&)>;
+/// What is made of the changes of `seen`, where they are not compared as they are.
+using ReadChanges = std::function<void(const FlightArc&, const ChangeWindows&, Track3&)>;
 
 /// Over all arcs, at the shift between the two streams at which they are most alike.
 struct Agreement {
@@ -37,65 +40,57 @@ struct Agreement {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();  ///< of seen on told
 };
 
-Agreement agreement(const FlightRecord& record, double lag, const MakePairs& make) {
+Track3 changes_of(const Track3& x, const ChangeWindows& windows, long shift) {
+  return {changes(x[0], windows, shift), changes(x[1], windows, shift), changes(x[2], windows, shift)};
+}
+
+Agreement agreement(const FlightRecord& record, double lag, const MakeStreams& make,
+                    const ReadChanges& read = {}) {
   const ChangeWindows windows = change_windows(lag, record.interval);
+  Track3 seen;
+  std::vector<Track3> streams;
+  for (const FlightArc& arc : record.arcs) {
+    if (arc.rows() < 2) continue;
+    Streams both = make(arc);
+    Track3 one = changes_of(both.seen, windows, 0);
+    if (read) read(arc, windows, one);
+    append(seen, one), streams.push_back(std::move(both.told));
+  }
+  if (seen[0].size() < kFewWindows) return {};
   std::array<Agreement, 5> at_shift;
   in_parallel(at_shift.size(), [&](std::size_t s) {
-    Pairs all;
     const long shift = (static_cast<long>(s) - 2) * static_cast<long>(windows.margin) / 2;
-    for (const FlightArc& arc : record.arcs) {
-      if (arc.rows() < 2) continue;
-      const Pairs one = make(arc, windows, shift);
-      append(all.seen, one.seen), append(all.told, one.told);
-    }
-    if (all.seen[0].size() < kFewWindows) return;
-    const Eigen::Matrix3d c = at_shift[s].c = correlations(all.seen, all.told);
+    Track3 told;
+    for (const Track3& one : streams) append(told, changes_of(one, windows, shift));
+    const Eigen::Matrix3d c = at_shift[s].c = correlations(seen, told);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double told = mad_scale(all.told[k]);
+      const double scale = mad_scale(told[k]);
       const auto i = static_cast<Eigen::Index>(k);
-      at_shift[s].slope[i] = told > 0 ? c(i, i) * mad_scale(all.seen[k]) / told : 0.0;
+      at_shift[s].slope[i] = scale > 0 ? c(i, i) * mad_scale(seen[k]) / scale : 0.0;
     }
   });
   return *std::ranges::max_element(at_shift, {}, [](const Agreement& a) { return a.c.norm(); });
 }
 
-Track3 changes_of(const Track3& x, const ChangeWindows& windows, long shift) {
-  return {changes(x[0], windows, shift), changes(x[1], windows, shift), changes(x[2], windows, shift)};
-}
-
 Eigen::Vector3d at(const Track3& x, std::size_t i) { return {x[0][i], x[1][i], x[2][i]}; }
 
-Pairs turns(const FlightArc& arc, const ChangeWindows& windows, long shift) {  // (1)
-  return {changes_of(turn_of_attitude(arc), windows, 0), changes_of(turn_of_rates(arc), windows, shift)};
+Streams turns(const FlightArc& arc) { return {turn_of_attitude(arc), turn_of_rates(arc)}; }  // (1)
+
+Streams positions(const FlightArc& arc) {  // (3)
+  return {position_W(arc), integrals(arc, velocity_W(arc))};
 }
 
-Pairs velocities(const FlightArc& arc, const ChangeWindows& windows, long shift, double gravity) {  // (2)
-  return {changes_of(velocity_W(arc), windows, 0),
-          changes_of(velocity_of_force(arc, gravity), windows, shift)};
-}
-
-Pairs positions(const FlightArc& arc, const ChangeWindows& windows, long shift) {  // (3)
-  return {changes_of(position_W(arc), windows, 0),
-          changes_of(integrals(arc, velocity_W(arc)), windows, shift)};
-}
-
-Pairs body_forces(const FlightArc& arc, const ChangeWindows& windows, long shift, double gravity) {  // (4)
-  Pairs out{changes_of(velocity_W(arc), windows, 0),
-            changes_of(integrals(arc, specific_force(arc)), windows, shift)};
-  for (std::size_t j = 0; j < out.seen[0].size(); ++j) {
+// (4), times the length of a window: changes of velocity, less what gravity does, in body axes.
+void in_body_axes(const FlightArc& arc, const ChangeWindows& windows, double gravity, Track3& seen) {
+  for (std::size_t j = 0; j < seen[0].size(); ++j) {
     const std::size_t from = windows.margin + j * windows.stride, to = from + windows.lag;
-    const double seconds = arc.t[to] - arc.t[from];
     Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
     for (std::size_t i = from + windows.width / 2; i < to + windows.width / 2; ++i)
       R += rotation(arc.start[i].body.q_WB) / static_cast<double>(windows.lag);
     const Eigen::Vector3d f =
-        R.transpose() * (at(out.seen, j) / seconds - gravity * Eigen::Vector3d::UnitZ());
-    for (std::size_t k = 0; k < 3; ++k) {
-      out.seen[k][j] = f[static_cast<Eigen::Index>(k)];
-      out.told[k][j] /= seconds;
-    }
+        R.transpose() * (at(seen, j) - gravity * (arc.t[to] - arc.t[from]) * Eigen::Vector3d::UnitZ());
+    for (std::size_t k = 0; k < 3; ++k) seen[k][j] = f[static_cast<Eigen::Index>(k)];
   }
-  return out;
 }
 
 std::vector<std::size_t> reversed(const Eigen::Matrix3d& c) {
@@ -196,16 +191,18 @@ SensorFrames test_sensor_frames(const FlightRecord& record, double gravity) {
     name_world(agreement(record, 0.3, positions).c, {"x", "y", "z"}, "the velocity", out.findings);
   if (!s.force || !s.attitude) return out;
   const std::size_t before = out.findings.size();
-  name_world(agreement(record, 0.3,
-                       [&](const FlightArc& arc, const ChangeWindows& windows, long shift) {
-                         return velocities(arc, windows, shift, gravity);
-                       })
-                 .c,
-             moving, name, out.findings);
+  const auto velocities = [&](const FlightArc& arc) {  // (2)
+    return Streams{velocity_W(arc), velocity_of_force(arc, gravity)};
+  };
+  name_world(agreement(record, 0.3, velocities).c, moving, name, out.findings);
   if (out.findings.size() > before) return out;
-  const Agreement body =
-      agreement(record, 0.4, [&](const FlightArc& arc, const ChangeWindows& windows, long shift) {
-        return body_forces(arc, windows, shift, gravity);
+  const Agreement body = agreement(
+      record, 0.4,
+      [](const FlightArc& arc) {
+        return Streams{velocity_W(arc), integrals(arc, specific_force(arc))};
+      },
+      [&](const FlightArc& arc, const ChangeWindows& windows, Track3& seen) {
+        in_body_axes(arc, windows, gravity, seen);
       });
   for (Eigen::Index k = 0; k < 2; ++k)  // az has its gravity
     if (body.c(k, k) < kAgainst && body.slope[k] < -0.4 && body.slope[k] > -2.5)

@@ -1,0 +1,26 @@
+// One Newton step with the other input, the states following.
+#include "ident/estimators/flight_input_doubt.h"
+
+#include <algorithm>
+
+#include "ident/estimators/flight_fit_steps.h"
+
+namespace ident {
+
+Eigen::VectorXd moved_by_rougher_speeds(const FlightRecord& record, const Theta& theta,
+                                        const FlightFit& fit) {
+  if (std::ranges::none_of(record.arcs, [](const FlightArc& arc) { return arc.rougher != nullptr; }))
+    return Eigen::VectorXd::Zero(fit.u.size());
+  FlightRecord other = record;
+  for (FlightArc& arc : other.arcs)
+    if (arc.rougher) arc.inputs = arc.rougher;
+  FlightSmoother smoother(other, theta, fit.noise, fit.chunk_seconds);
+  smoother.set_huber(fit.smoother->huber());
+  smoother.set_states(fit.smoother->states());
+  smoother.settle(fit.u);
+  linearize_at(smoother, fit.u);
+  const Eigen::VectorXd du = newton_step(smoother, fit.u).du;
+  return du.allFinite() ? du : Eigen::VectorXd::Zero(du.size());
+}
+
+}  // namespace ident

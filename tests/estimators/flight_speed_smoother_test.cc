@@ -1,0 +1,103 @@
+// Rotor speeds as input: noise comes off, motion stays, and what depends on the smoothing is told.
+#include "ident/estimators/flight_speed_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/math.h"
+#include "ident/core/random.h"
+#include "ident/estimators/flight_refine.h"
+#include "ident/model/simulate.h"
+#include "support/known_quad.h"
+
+namespace ident {
+namespace {
+
+struct Speed {
+  std::vector<double> t, truth, seen;
+};
+
+Speed speed_of(double noise, int rows = 5000, double rate = 250) {
+  Speed s;
+  Random random(11);
+  for (int i = 0; i < rows; ++i) {
+    const double t = i / rate;
+    s.t.push_back(t);
+    s.truth.push_back(900 + 40 * std::sin(7 * t) + 15 * std::sin(23 * t + 1));
+    s.seen.push_back(s.truth.back() + noise * random.normal());
+  }
+  return s;
+}
+
+double rms(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+// Slope of the true rate over the one that the smoothed speeds have: 1 where noise weakens nothing.
+double slope_of_rates(const Speed& s, const std::vector<double>& by) {
+  double xy = 0, xx = 0;
+  for (std::size_t i = 1; i < by.size(); ++i) {
+    const double x = by[i] - by[i - 1], y = s.truth[i] - s.truth[i - 1];
+    xy += x * y, xx += x * x;
+  }
+  return xy / xx;
+}
+
+TEST(SpeedSmoother, TakesNoiseOffAndLeavesTheMotion) {
+  const Speed s = speed_of(3.0);
+  const SmoothedSpeed found = smoothed_speed(s.t, s.seen);
+  EXPECT_LT(rms(found.likely, s.truth), 1.0);
+  EXPECT_LT(slope_of_rates(s, s.seen), 0.3);
+  EXPECT_NEAR(slope_of_rates(s, found.likely), 1.0, 0.03);
+  EXPECT_LT(slope_of_rates(s, found.rougher), slope_of_rates(s, found.likely));
+}
+
+TEST(SpeedSmoother, LeavesExactSpeedsAlone) {
+  const Speed s = speed_of(0.0);
+  EXPECT_LT(rms(smoothed_speed(s.t, s.seen).likely, s.truth), 1e-3);
+  const std::vector<double> still(s.t.size(), 700.0);
+  EXPECT_EQ(smoothed_speed(s.t, still).likely, still);
+}
+
+TEST(SpeedSmoother, BridgesHeldAndMissingSamples) {
+  Speed s = speed_of(1.0);
+  for (std::size_t i = 0; i < s.seen.size(); ++i) {
+    if (i % 4 != 0) s.seen[i] = s.seen[i - 1];
+    if (i > 2000 && i < 2010) s.seen[i] = kNaN;
+  }
+  EXPECT_LT(rms(smoothed_speed(s.t, s.seen).likely, s.truth), 1.0);
+  const std::vector<double> none(s.t.size(), kNaN);
+  EXPECT_TRUE(smoothed_speed(s.t, none).likely.empty());
+}
+
+// Speeds with one per cent of noise: taken as they are, they make Jp and the inertias wrong by many standard
+// deviations.
+TEST(SpeedSmoother, NoisySpeedsAsInputGiveNoConfidentWrongNumber) {
+  const Vehicle truth = testing::quad();
+  std::vector<FlightLog> logs;
+  Random random(5);
+  for (const std::uint64_t seed : {1, 2}) {
+    SimulationOptions options;
+    options.rate = 250, options.duration = 30, options.seed = seed, options.signals.rotor_speeds = 1;
+    FlightLog log = simulate_flight(truth, options).log;
+    log.file = "log" + std::to_string(seed);
+    log.delta.clear();
+    for (auto& column : log.Omega)
+      for (double& Omega : column) Omega *= 1 + 0.01 * random.normal();
+    logs.push_back(std::move(log));
+  }
+  const Result result = refine_flight(testing::known(truth), logs, {.validate = false});
+  int known = 0;
+  for (const Parameter& p : result.parameters) {
+    EXPECT_LT(std::abs(p.value - truth.value(p.name)), 3.5 * p.std) << p.name;
+    known += p.identifiable;
+  }
+  EXPECT_GE(known, 3);
+}
+
+}  // namespace
+}  // namespace ident
