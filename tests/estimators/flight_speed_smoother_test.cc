@@ -97,6 +97,8 @@ TEST(SpeedSmoother, NoisySpeedsAsInputGiveNoConfidentWrongNumber) {
     known += p.identifiable;
   }
   EXPECT_GE(known, 3);
+  EXPECT_TRUE(
+      std::ranges::any_of(result.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; }));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_commands_agree.h"
+#include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_streams.h"
 
@@ -104,6 +105,11 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
     tell(log.warnings);
   }
   tell(entry.record.warnings);
+  if (has_noisy_input(entry.record))
+    result.warn("speeds_as_input",
+                "no commands: measured rotor speeds are the input, smoothed; what depends on the smoothing "
+                "widens the intervals, and a diagnosis can hardly tell their noise from a gap: log the "
+                "commands too");
   entry.tested = self_test(entry.record, logs, vehicle, entry.p);
   tell(entry.tested);
   return entry;

@@ -7,10 +7,15 @@
 
 namespace ident {
 
+bool has_noisy_input(const FlightRecord& record) {
+  return std::ranges::any_of(record.arcs, [](const FlightArc& arc) {
+    return arc.rougher != nullptr && arc.rougher->Omega != arc.inputs->Omega;
+  });
+}
+
 Eigen::VectorXd moved_by_rougher_speeds(const FlightRecord& record, const Theta& theta,
                                         const FlightFit& fit) {
-  if (std::ranges::none_of(record.arcs, [](const FlightArc& arc) { return arc.rougher != nullptr; }))
-    return Eigen::VectorXd::Zero(fit.u.size());
+  if (!has_noisy_input(record)) return Eigen::VectorXd::Zero(fit.u.size());
   FlightRecord other = record;
   for (FlightArc& arc : other.arcs)
     if (arc.rougher) arc.inputs = arc.rougher;

@@ -14,6 +14,7 @@
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
 #include "ident/estimators/flight_inertia.h"
+#include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
@@ -132,6 +133,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.command = "gap";
   require_known(options.exclude);
   auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  const bool noisy_input = has_noisy_input(record);
+  // Noise that is left passes for gusts; motion that is smoothed away would pass for strikes and causes.
+  for (FlightArc& arc : record.arcs)
+    if (arc.rougher) arc.inputs = arc.rougher;
   if (only_trim(record.signals)) {
     out.adopted = diagnose_trim(result, record, p, options.exclude);
     if (const std::string wrong = disqualified(tested); !wrong.empty()) {
@@ -206,6 +211,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   doubt_negative_dead_time(result);
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
+  if (noisy_input && verdict.status == "unknown")
+    verdict.sentence +=
+        " Measured rotor speeds are the input here, and their noise may be all of it: log the commands too.";
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
