@@ -51,8 +51,8 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
 double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options);
 
 /// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
-/// Steps are of order 4 if it is to be exact, and slopes then in double precision where the rounding of single
-/// precision would pass for information. For a fit that was made with a larger tolerance.
+/// Steps are of order 4 if it is to be exact, and slopes then in double precision where the rounding of
+/// single precision would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
 /// The shared unknowns as the first `training_share` of every arc would have them: one Newton step from the

@@ -52,7 +52,8 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
 
 double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options) {
   const double missed = smoother.reduced().cost - samples_of(smoother.record());
-  return std::max({options.tolerance, options.tolerance_of_misfit * missed, options.exact ? 0.0 : kWorthAStep});
+  return std::max(
+      {options.tolerance, options.tolerance_of_misfit * missed, options.exact ? 0.0 : kWorthAStep});
 }
 
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
@@ -66,9 +67,7 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
     fit.u = at.u, fit.steps += at.steps;
     return true;
   };
-  const auto covariance = [&] {
-    return inverse_of(smoother.reduced().S + prior_information(theta, fit.u));
-  };
+  const auto covariance = [&] { return inverse_of(smoother.reduced().S + prior_information(theta, fit.u)); };
   if (options.exact) smoother.set_order(4);
   // Slopes in single precision may be too coarse to simulate anything.
   if (!minimum(false) || (options.exact && rounding_shows(smoother, covariance()))) minimum(true);
