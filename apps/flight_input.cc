@@ -105,7 +105,8 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
       map = read_log_map(log.map);
       context.used.push_back(log.map);
     }
-    if (std::filesystem::is_regular_file(log.file))  // a pipe can be read only once
+    std::error_code unreadable;                                  // which the reader tells
+    if (std::filesystem::is_regular_file(log.file, unreadable))  // a pipe can be read only once
       context.hashes.try_emplace(log.file, std::async(std::launch::async, sha256_of_file, log.file));
     input.logs.push_back(read_flight_log(log.file, input.vehicle, map));
     refuse_twice(input.logs);
