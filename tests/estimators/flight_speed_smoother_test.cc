@@ -74,6 +74,31 @@ TEST(SpeedSmoother, BridgesHeldAndMissingSamples) {
   EXPECT_TRUE(smoothed_speed(s.t, none).likely.empty());
 }
 
+// A motor that hovers and is then driven hard: one smoothing for both takes the edges of what it does for
+// noise, or noise for what it does.
+TEST(SpeedSmoother, FollowsBurstsAndSmoothsWhatIsCalm) {
+  Speed s;
+  Random random(3);
+  double speed = 800;
+  std::vector<double> calm, burst, calm_found, burst_found;
+  for (int i = 0; i < 6000; ++i) {
+    const double t = i / 250.0;
+    const bool driven = std::fmod(t, 4.0) > 3.2;
+    const double target = driven ? 800 + (std::fmod(t, 0.4) < 0.2 ? 60 : -60) : 800 + 2 * std::sin(2 * t);
+    speed += (target - speed) * 0.1;
+    s.t.push_back(t), s.truth.push_back(speed), s.seen.push_back(speed + 3.0 * random.normal());
+  }
+  const SmoothedSpeed found = smoothed_speed(s.t, s.seen);
+  for (std::size_t i = 0; i < s.t.size(); ++i) {
+    const double phase = std::fmod(s.t[i], 4.0);
+    const bool driven = phase > 3.2, settled = phase > 0.6 && phase < 3.0;
+    if (driven) burst.push_back(s.truth[i]), burst_found.push_back(found.likely[i]);
+    if (settled) calm.push_back(s.truth[i]), calm_found.push_back(found.likely[i]);
+  }
+  EXPECT_LT(rms(calm, calm_found), 0.15 * 3.0);
+  EXPECT_LT(rms(burst, burst_found), 0.65 * 3.0);
+}
+
 // Speeds with one per cent of noise: taken as they are, they make Jp and the inertias wrong by many standard
 // deviations.
 TEST(SpeedSmoother, NoisySpeedsAsInputGiveNoConfidentWrongNumber) {

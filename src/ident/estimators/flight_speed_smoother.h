@@ -14,8 +14,9 @@ struct SmoothedSpeed {
 /// The mean of what a rotor's speed was at each row, given all its samples (NaN where there is none; one that
 /// repeats the last is held telemetry). Noise in an input weakens whatever acts through it, most of all what
 /// acts through its rate; the error of a conditional mean does not (Berkson, J. Am. Stat. Assoc. 45, 1950).
-/// The rate of the speed is a random walk; its intensity and the noise are those that make the samples most
-/// likely. Speeds without noise, or too few to tell, come back as they are, interpolated; none: empty.
+/// The rate of the speed is a random walk; its intensity, which follows what the motor does, and the noise
+/// are those that make the samples most likely. Speeds without noise, or too few to tell, come back as they
+/// are, interpolated; none: empty.
 SmoothedSpeed smoothed_speed(const std::vector<double>& t, const std::vector<double>& speed);
 
 }  // namespace ident

@@ -49,6 +49,14 @@ constexpr double kHighest = 0.05;
 
 }  // namespace
 
+bool is_constant_of(const Candidate& cause, const FreeConstant& constant, int i) {
+  if (cause.parameter >= 0) return cause.parameter == i;
+  const std::string& name = constant.name;
+  const std::size_t at = name.find('@');
+  const bool rotor = at == std::string::npos || std::stoi(name.substr(at + 1)) == cause.rotor + 1;
+  return rotor && name.substr(0, name.find('.')) == cause.name;
+}
+
 double payload_reach(const Vehicle& vehicle) {
   double farthest = 0;
   for (const Rotor& rotor : vehicle.rotors) farthest = std::max(farthest, rotor.r_B.norm());

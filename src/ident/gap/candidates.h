@@ -23,6 +23,9 @@ struct Candidate {
   double highest = 0.0;
 };
 
+/// Whether unknown i, which is that constant, is one of the cause's.
+bool is_constant_of(const Candidate& cause, const FreeConstant& constant, int i);
+
 /// Base constants followed by the directions of every effect, and the candidates over them.
 struct ExtendedProblem {
   std::vector<FreeConstant> constants;

@@ -24,6 +24,7 @@
 #include "ident/gap/evidence.h"
 #include "ident/gap/gap_sections.h"
 #include "ident/gap/generic_rival.h"
+#include "ident/gap/input_smoothing.h"
 #include "ident/gap/model_search.h"
 #include "ident/gap/residual_wrench.h"
 #include "ident/gap/verdict.h"
@@ -50,19 +51,12 @@ Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, co
   constexpr double kNothing = -30.0;  // of the logarithm of what is positive
   Eigen::VectorXd out = u;
   const std::vector<FreeConstant>& constants = model.theta->constants();
-  const auto is_of = [&](const Candidate& c, std::size_t i) {
-    if (c.parameter >= 0) return static_cast<std::size_t>(c.parameter) == i;
-    const std::string& name = constants[i].name;
-    const std::size_t at = name.find('@');
-    const bool rotor = at == std::string::npos || std::stoi(name.substr(at + 1)) == c.rotor + 1;
-    return rotor && name.substr(0, name.find('.')) == c.name;
-  };
   for (const Candidate& other : model.adopted) {
     const bool carries = other.name == "rotor_drag" || other.name == "parasitic_drag";
     if (same(other, cause) || (carries && cause.name == "wind")) continue;
     for (std::size_t i = 0; i < constants.size(); ++i) {
       const FreeConstant& c = constants[i];
-      if (!is_of(other, i)) continue;
+      if (!is_constant_of(other, c, static_cast<int>(i))) continue;
       const double null = other.parameter >= 0 ? c.prior_value : find_parameter(c.name)->null_value;
       const auto k = static_cast<Eigen::Index>(i);
       if (c.positive)
@@ -114,6 +108,23 @@ Judged in_hover(Judged verdict) {
   return verdict;
 }
 
+// What shows with one smoothing of the speeds and not with another is no cause; and what is unknown may all
+// be their noise.
+Judged with_noisy_input(Judged verdict, const std::string& depends) {
+  if (!depends.empty() && !verdict.effects.empty()) {
+    verdict.sentence = fmt::format(
+        "A gap is there that looks like {}, but the size of {} depends on how the speeds are smoothed.",
+        fmt::join(verdict.effects, " with "), depends);
+    verdict.confused_with = std::exchange(verdict.effects, {});
+    verdict.status = "unknown";
+    verdict.refused = true;
+  }
+  if (verdict.status == "unknown")
+    verdict.sentence +=
+        " Measured rotor speeds are the input here, and their noise may be all of it: log the commands too.";
+  return verdict;
+}
+
 // Values that only a cause would have that is not named are not known.
 void doubt_refused(std::vector<Parameter>& parameters, const SearchResult& search) {
   for (Parameter& p : parameters)
@@ -134,9 +145,6 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   require_known(options.exclude);
   auto [p, record, tested] = enter_flight(vehicle, logs, result);
   const bool noisy_input = has_noisy_input(record);
-  // Noise that is left passes for gusts; motion that is smoothed away would pass for strikes and causes.
-  for (FlightArc& arc : record.arcs)
-    if (arc.rougher) arc.inputs = arc.rougher;
   if (only_trim(record.signals)) {
     out.adopted = diagnose_trim(result, record, p, options.exclude);
     if (const std::string wrong = disqualified(tested); !wrong.empty()) {
@@ -198,7 +206,9 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
+  const Eigen::VectorXd moved = moved_by_rougher_speeds(record, best, search.best.fit);
   FlightFit body = search.best.fit;
+  body.covariance += moved * moved.transpose();
   body.smoother.reset(), body.u = nearest_body(best, body);
   result.parameters = flight_parameters(best, body, "gap");
   warn_of_inertia(result, best, search.best.fit);
@@ -211,9 +221,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   doubt_negative_dead_time(result);
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
-  if (noisy_input && verdict.status == "unknown")
-    verdict.sentence +=
-        " Measured rotor speeds are the input here, and their noise may be all of it: log the commands too.";
+  if (noisy_input) verdict = with_noisy_input(std::move(verdict), depends_on_smoothing(search.best, moved));
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
