@@ -12,12 +12,14 @@ struct Options {
   std::uint64_t seed = 1;
   int cases = 10, first = 1;
   std::string out, kind, only;
+  bool commands = true;
   double size = 0;
 };
 
 constexpr const char* kUsage =
     "withheld_generate --seed S --cases N --out DIR [--first I] [--kind none|single|pair|outside]\n"
-    "                  [--only EFFECT[,EFFECT] [--size X]]     X in units of the detection limit\n";
+    "                  [--only EFFECT[,EFFECT] [--size X]]     X in units of the detection limit\n"
+    "                  [--input commands|speeds]               speeds: logs without commands\n";
 
 Options parse(int argc, char** argv) {
   Options o;
@@ -35,6 +37,10 @@ Options parse(int argc, char** argv) {
       o.out = value;
     else if (name == "--kind")
       o.kind = value;
+    else if (name == "--input" && value != "commands" && value != "speeds")
+      throw std::invalid_argument("--input is commands or speeds");
+    else if (name == "--input")
+      o.commands = value == "commands";
     else if (name == "--only")
       o.only = value;
     else if (name == "--size")
@@ -49,7 +55,7 @@ Options parse(int argc, char** argv) {
 withheld::CaseOrder order_of(const Options& o, int index) {
   withheld::CaseOrder order;
   if (o.only.empty()) {
-    order = withheld::campaign_order(o.seed, index, o.kind);
+    order = withheld::campaign_order(o.seed, index, o.kind, o.commands);
   } else {
     for (std::size_t from = 0; from != std::string::npos;) {
       const std::size_t comma = o.only.find(',', from);
@@ -60,7 +66,7 @@ withheld::CaseOrder order_of(const Options& o, int index) {
     const bool is_outside = std::find(outside.begin(), outside.end(), order.members[0]) != outside.end();
     order.kind = is_outside ? "outside" : order.members.size() > 1 ? "pair" : "single";
   }
-  order.size = o.size;
+  order.size = o.size, order.commands = o.commands;
   return order;
 }
 

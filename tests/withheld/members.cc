@@ -1,6 +1,7 @@
 // The list of all that may be withheld: the catalogue, wrong parameters, and what lies outside.
 #include "members.h"
 
+#include <set>
 #include <stdexcept>
 
 namespace withheld {
@@ -26,6 +27,13 @@ const std::vector<std::string>& wrong_parameter_names() {
                                                  "parameter:omega_m", "parameter:zeta_m", "parameter:Jxx",
                                                  "parameter:Jyy",     "parameter:Jzz",    "parameter:m"};
   return names;
+}
+
+bool acts_before_rotor_speed(const std::string& name) {
+  static const std::set<std::string> names = {"battery_sag", "motor_delay",       "motor_asymmetry",
+                                              "backlash",    "parameter:omega_m", "parameter:zeta_m",
+                                              "parameter:km"};
+  return names.contains(name);
 }
 
 bool draw_wrong_parameter(const std::string& name, Random& random, Member* member) {

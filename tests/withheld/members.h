@@ -37,6 +37,9 @@ const std::vector<std::string>& catalogue_names();
 const std::vector<std::string>& outside_names();
 const std::vector<std::string>& wrong_parameter_names();
 
+// Whether it is somewhere between command and rotor speed: logs of speeds alone cannot show it.
+bool acts_before_rotor_speed(const std::string& name);
+
 Member draw_member(const std::string& name, const Vehicle& vehicle, Random& random);
 
 // Parts of draw_member, one for each group.

@@ -52,6 +52,7 @@ Case draw_scene(std::uint64_t seed, const CaseOrder& order) {
   c.vehicle = draw_vehicle(random);
   for (const std::string& name : order.members) c.withheld.push_back({draw_member(name, c.vehicle, random)});
   c.instruments = draw_instruments(c.vehicle, random);
+  if (!order.commands) c.instruments.rotor_speeds = true;
   for (int log = 0; log < 2; ++log) c.settings[static_cast<std::size_t>(log)] = draw_settings(c, log, random);
   c.known = draw_known_before(c.vehicle, random);
   c.effects.gust_grip = random.uniform(0.15, 0.4);
@@ -146,11 +147,12 @@ bool share_a_force(const std::vector<std::string>& pair) {
 
 }  // namespace
 
-CaseOrder campaign_order(std::uint64_t seed, int index, const std::string& only_kind) {
+CaseOrder campaign_order(std::uint64_t seed, int index, const std::string& only_kind, bool commands) {
   const std::string pattern =
       "nsspnosnssponssnpsnosonsp";  // of 25: an odd number, so halves by parity are alike
   const char letter = pattern[static_cast<std::size_t>(index % 25)];
   CaseOrder order;
+  order.commands = commands;
   order.kind = !only_kind.empty() ? only_kind
                : letter == 'n'    ? "none"
                : letter == 's'    ? "single"
@@ -158,7 +160,11 @@ CaseOrder campaign_order(std::uint64_t seed, int index, const std::string& only_
                                   : "outside";
   Random random(seed * 7919ULL + static_cast<std::uint64_t>(index), 5);
   const auto pick = [&](const std::vector<std::string>& names) {
-    return names[static_cast<std::size_t>(random.integer(0, static_cast<int>(names.size()) - 1))];
+    for (;;) {
+      const std::string& name =
+          names[static_cast<std::size_t>(random.integer(0, static_cast<int>(names.size()) - 1))];
+      if (commands || !acts_before_rotor_speed(name)) return name;
+    }
   };
   const auto any = [&] {
     return random.chance(0.17) ? pick(wrong_parameter_names()) : pick(catalogue_names());

@@ -14,6 +14,7 @@ struct CaseOrder {
   std::string kind;                  // none, single, pair, outside
   std::vector<std::string> members;  // what is withheld; empty for none
   double size = 0;                   // wanted, in units of the detection limit; 0: drawn
+  bool commands = true;              // are logged; without, rotor speeds always are
 };
 
 struct Withheld {
@@ -43,7 +44,8 @@ struct Case {
 };
 
 // What case number `index` of a campaign withholds: 7 none, 10 single, 4 pairs, 4 outside of every 25.
-CaseOrder campaign_order(std::uint64_t seed, int index, const std::string& only_kind);
+// Without commands in the logs nothing that acts between command and rotor speed is drawn.
+CaseOrder campaign_order(std::uint64_t seed, int index, const std::string& only_kind, bool commands);
 
 Case draw_case(std::uint64_t seed, int index, const CaseOrder& order);
 

@@ -41,7 +41,9 @@ class Line {
 std::string log_csv(const Case& c, const Flight& flight) {
   const Instruments& i = c.instruments;
   std::string header = "t";
-  for (int n = 1; n <= kRotors; ++n) header += (i.pulse_widths ? ",u" : ",delta") + std::to_string(n);
+  const bool commands = c.order.commands;
+  for (int n = 1; commands && n <= kRotors; ++n)
+    header += (i.pulse_widths ? ",u" : ",delta") + std::to_string(n);
   header += ",p,q,r,ax,ay,az,qw,qx,qy,qz,x,y,z,vx,vy,vz";
   for (int n = 1; i.rotor_speeds && n <= kRotors; ++n) header += ",omega" + std::to_string(n);
   Line line;
@@ -49,7 +51,7 @@ std::string log_csv(const Case& c, const Flight& flight) {
   for (std::size_t k = 0; k < flight.rows.size(); ++k) {
     const Row& row = flight.rows[k];
     line.cell(row.t, 6);
-    for (int n = 0; n < kRotors; ++n) {
+    for (int n = 0; commands && n < kRotors; ++n) {
       if (i.pulse_widths)
         line.cell(v.pulse_min + row.delta[n] * (v.pulse_max - v.pulse_min), 0);
       else
