@@ -100,8 +100,10 @@ Table by_channel_table(const Json& found) {
   for (const auto& [cause, parts] : found["by_channel"].items())
     for (const auto& [part, asked] : parts.items()) {
       if (!(number(asked["weight"]) >= kHasASay)) continue;
-      table.rows.push_back({cause, part, fmt::format("{:+.0f}", 100 * number(asked["change"])),
-                            percent(asked["std"]), percent(asked["weight"])});
+      const double change = 100 * number(asked["change"]), std = 100 * number(asked["std"]);
+      const int decimals = std > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(std))), 0, 3) : 0;
+      table.rows.push_back({cause, part, fmt::format("{:+.{}f}", change, decimals),
+                            fmt::format("{:.{}f}", std, decimals), percent(asked["weight"])});
     }
   return table;
 }
