@@ -27,7 +27,7 @@ BenchInput bench_input(const BenchOptions& options, const TableSchema& schema, c
     context.used.push_back(options.vehicle);
   } else if (input.campaign) {
     input.vehicle = campaign_vehicle(*input.campaign);
-    context.used.push_back(input.campaign->vehicle);
+    context.used.insert(context.used.end(), {input.campaign->vehicle, input.campaign->parameters});
   }
   for (const std::string& file : files) {
     input.tables.push_back(read_table(file, schema));

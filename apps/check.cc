@@ -11,7 +11,7 @@ Vehicle judged(const std::string& file, Context& context) {
   if (!file.empty()) return read_vehicle(file, VehicleUse::judging);
   const std::optional<Campaign> campaign = find_campaign();
   if (!campaign) throw UsageError("name a vehicle or parameter file: there is no ident.yaml here");
-  context.used.push_back(campaign->file);
+  context.used.insert(context.used.end(), {campaign->file, campaign->vehicle, campaign->parameters});
   return campaign_vehicle(*campaign);
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <functional>
 #include <future>
 #include <map>
@@ -62,6 +63,17 @@ struct Example {
 
 /// The examples that lead the help of a subcommand.
 void examples(CLI::App& cli, const std::vector<Example>& list);
+
+/// Accepts numbers above zero; CLI11's own one tells of a range of 309 digits.
+inline CLI::Validator positive_number() {
+  return {[](const std::string& text) -> std::string {
+            double value = 0;
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            return is_number && value > 0 && std::isfinite(value) ? ""
+                                                                  : "'" + text + "' is not a positive number";
+          },
+          "POSITIVE"};
+}
 
 /// A line on stderr for work that takes over a second, on a terminal only.
 class Progress {

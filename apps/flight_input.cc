@@ -89,7 +89,7 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
     context.used.push_back(options.vehicle);
   } else if (campaign) {
     input.vehicle = known_vehicle(*campaign, logs, model, context);
-    context.used.insert(context.used.end(), {campaign->file, campaign->vehicle});
+    context.used.insert(context.used.end(), {campaign->file, campaign->vehicle, campaign->parameters});
     context.shown = Shown::pictures;  // the result is kept for the report of the campaign
   } else {
     throw UsageError("no vehicle: name one with --vehicle FILE, or run where there is an ident.yaml");

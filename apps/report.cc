@@ -1,7 +1,10 @@
 // `ident report`: everything that a campaign found on one page, or the parameters of a vehicle file.
 #include "ident/report/report.h"
 
+#include <cmath>
+
 #include "command.h"
+#include "ident/estimators/slant.h"
 #include "ident/io/campaign.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/report/campaign_report.h"
@@ -15,6 +18,17 @@ struct Options {
   std::string output;
 };
 
+/// A slant angle is of kT, kQ and the arm, which later commands change.
+void warn_of_old_slant(std::vector<Result>& chapters, const Vehicle& vehicle) {
+  for (Result& chapter : chapters) {
+    if (chapter.command != "slant" || chapter.parameters.empty()) continue;
+    const double now = estimate_slant(vehicle).parameters.front().value,
+                 then = chapter.parameters.front().value;
+    if (std::abs(now - then) > 1e-6)
+      chapter.warn("stale_result", "kT, kQ or the arm have changed since: run `ident slant` again.");
+  }
+}
+
 Result report_campaign(const Options& options, Context& context) {
   const Campaign campaign = read_campaign();
   const Vehicle vehicle = campaign_vehicle(campaign);
@@ -22,6 +36,7 @@ Result report_campaign(const Options& options, Context& context) {
   if (chapters.empty())
     throw DataError(
         "nothing to report yet: run `ident thrust`, `ident motor` or `ident flightlog --refine` first");
+  warn_of_old_slant(chapters, vehicle);
   Result summary = campaign_summary(vehicle, chapters);
   summary.inputs = {campaign.file, campaign.vehicle};
   add_provenance(summary, context);

@@ -41,7 +41,7 @@ void add_simulate_thrust(CLI::App& cli, const std::shared_ptr<Action>& chosen) {
   add_recording_options(*sub, s.disturbance, s.command, "column: delta, u (pulse width in us) or none");
   sub->add_option("--supply", o->supply,
                   "its voltage: adds voltage and current; speeds then follow from ki, kv, R, I0, not from km")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("VOLT");
   examples(
       *sub,

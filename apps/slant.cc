@@ -38,7 +38,7 @@ Outcome run(const Options& options, Context& context) {
   }
   const std::optional<Campaign> campaign = find_campaign();
   if (!campaign) throw UsageError("name a vehicle with --vehicle: there is no ident.yaml in this folder");
-  context.used.push_back(campaign->file);
+  context.used.insert(context.used.end(), {campaign->file, campaign->vehicle, campaign->parameters});
   const Vehicle vehicle = campaign_vehicle(*campaign);
   const Result result = estimate_slant(vehicle, {.correlation = stored_correlation(vehicle)});
   context.outputs.add(campaign->parameters, updated_parameters(*campaign, result));

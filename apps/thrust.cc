@@ -28,11 +28,11 @@ Action thrust_command(CLI::App& cli) {
                     "thrust sweeps (omega or rpm, thrust; torque, delta or u, voltage, current)");
   cli.add_option("--radius", options->radius, "of the propeller in m: adds CT, CQ and the figure of merit")
       ->type_name("M")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   cli.add_option("--rho", options->rho,
                  "density of the air in kg/m^3; default that of the vehicle file, else 1.225")
       ->type_name("KG/M3")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   examples(cli,
            {{"ident thrust sweep.csv", "kT and kQ with their uncertainty, and how well the law holds"},
             {"ident thrust a.csv b.csv --radius 0.1", "two sweeps together, with CT, CQ, figure of merit"},

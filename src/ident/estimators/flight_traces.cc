@@ -36,12 +36,19 @@ std::vector<ChunkResult> predicted(const FlightWindows& windows, double horizon)
   return results;
 }
 
-// A gap after each window keeps the line from running on into the next.
+// A gap after each window keeps the line from running on into the next; a row that both have goes to the
+// next.
 Series trace_of(const FlightRecord& record, const FlightWindows& windows,
                 const std::vector<ChunkResult>& results, std::size_t channel, double sigma) {
   Series out;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const FlightArc& arc = record.arcs[windows[w].arc];
+    bool shared = false;
+    while (w > 0 && windows[w].arc == windows[w - 1].arc && !out.x.empty() &&
+           out.x.back() >= arc.t[windows[w].row])
+      out.x.pop_back(), out.y.pop_back(), shared = true;
+    if (shared && !out.x.empty())
+      out.x.push_back((out.x.back() + arc.t[windows[w].row]) / 2), out.y.push_back(kNaN);
     for (std::size_t i = 0; i * kChannels < results[w].residuals.size(); ++i) {
       const std::size_t row = windows[w].row + i;
       const double r = results[w].residuals[i * kChannels + channel];

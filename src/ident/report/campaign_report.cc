@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "ident/core/error.h"
+#include "ident/io/campaign.h"
 #include "ident/io/read_bytes.h"
 #include "ident/io/sha256.h"
 #include "ident/model/parameters.h"
@@ -43,12 +44,15 @@ Result read_stored_result(const fs::path& file) {
   }
 }
 
-void warn_of_changed_inputs(Result& result, const fs::path& folder) {
+// `written`: the parameter file, which commands themselves change.
+void warn_of_changed_inputs(Result& result, const fs::path& folder, const std::string& written) {
+  const bool refined = std::ranges::count(result.command_line, "--refine") > 0;
   for (const InputFile& input : result.files) {
     const std::string path = (folder / input.path).lexically_normal().string();
+    if (path == written) continue;
     if (fs::is_regular_file(path) && sha256_of_file(path) == input.sha256) continue;
-    result.warn("stale_result", fmt::format("{} has changed since, or is gone: run `ident {}` again.",
-                                            input.path, result.command));
+    result.warn("stale_result", fmt::format("{} has changed since, or is gone: run `ident {}{}` again.",
+                                            input.path, result.command, refined ? " --refine" : ""));
   }
 }
 
@@ -84,10 +88,11 @@ std::vector<Result> stored_results(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(fs::path(folder) / kFolder, no_folder))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   std::ranges::sort(files, {}, [](const fs::path& file) { return std::pair(place_in_order(file), file); });
+  const std::optional<Campaign> campaign = find_campaign(folder);
   std::vector<Result> results;
   for (const fs::path& file : files) {
     results.push_back(read_stored_result(file));
-    warn_of_changed_inputs(results.back(), folder);
+    warn_of_changed_inputs(results.back(), folder, campaign ? campaign->parameters : "");
   }
   return results;
 }

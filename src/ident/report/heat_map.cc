@@ -11,8 +11,9 @@
 namespace ident {
 namespace {
 
-constexpr double kBarRoom = 92;   // colour bar and its labels
-constexpr double kStrong = 0.62;  // from here on the text on a cell takes the colour of the paper
+constexpr double kBarRoom = 92;     // colour bar and its labels
+constexpr double kCellText = 0.9;  // size of the text on a cell over that of labels
+constexpr double kStrong = 0.62;    // from here on the text on a cell takes the colour of the paper
 
 /// Values to strengths: 0 is the paper, 1 the full hue.
 struct Shade {
@@ -87,6 +88,14 @@ struct Grid {
   }
 };
 
+/// As much of a number as fits into a cell.
+std::string number_in(double room, double value) {
+  for (const std::string& text :
+       {format_number(value, 2), fmt::format("{:.2f}", value), fmt::format("{:.1f}", value)})
+    if (kCellText * label_width(text) <= room) return text;
+  return "";
+}
+
 void draw_cells(Svg& svg, const Plot& plot, const Grid& grid, const Shade& shade) {
   const bool written = grid.cell_width >= 36 && grid.cell_height >= 17;
   for (Eigen::Index r = 0; r < plot.cells.rows(); ++r)
@@ -97,7 +106,8 @@ void draw_cells(Svg& svg, const Plot& plot, const Grid& grid, const Shade& shade
       shade.draw(svg, at, grid.cell_width, grid.cell_height, value,
                  name_of(plot.row_names, r) + ", " + name_of(plot.column_names, c) + ": " + number);
       if (written)
-        svg.text({at.x + grid.cell_width / 2, at.y + grid.cell_height / 2 + 4}, number,
+        svg.text({at.x + grid.cell_width / 2, at.y + grid.cell_height / 2 + 4},
+                 std::isfinite(value) ? number_in(grid.cell_width - 2, value) : number,
                  std::isfinite(value) && shade.strength(value) > kStrong ? "middle cell on-strong"
                                                                          : "middle cell");
     }

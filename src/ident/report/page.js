@@ -63,6 +63,30 @@
     return uPlot.join(columns.map((c) => [shifted.get(c.x), c.y]));
   }
 
+  // uPlot cuts gaps out of one line, and none that is narrower than a pixel: pieces are drawn one by one, where
+  // they are not too many for that.
+  const inPieces = (values) => values.length < 50000 && values.some(Number.isNaN);
+  function pieces(u, series, from, to) {
+    const stroke = new Path2D(), x = u.data[0], y = u.data[series];
+    let down = false;
+    for (let i = Math.max(0, from - 1); i <= Math.min(x.length - 1, to + 1); i++) {
+      if (y[i] === undefined) continue;
+      if (y[i] === null) { down = false; continue; }
+      const at = [u.valToPos(x[i], "x", true), u.valToPos(y[i], "y", true)];
+      down ? stroke.lineTo(...at) : stroke.moveTo(...at);
+      down = true;
+    }
+    return { stroke };
+  }
+
+  // Ticks with the decimals that their distance asks for.
+  function tickLabels(u, ticks, axis, space, step) {
+    let decimals = 0;
+    for (let s = step; decimals < 12 && Math.abs(s - Math.round(s)) > 1e-6 * s; s *= 10) decimals++;
+    const label = (v) => decimals > 5 ? Number(v.toPrecision(3)).toExponential() : v.toFixed(decimals);
+    return ticks.map((v) => v === 0 ? "0" : label(v));
+  }
+
   const width = { measured: 1, predicted: 2, line: 1.5 };
   function seriesOf(plot) {
     const all = [{ label: plot.x }], bands = [];
@@ -77,7 +101,8 @@
       } else if (s.style === "bars") {
         all.push({ label: s.name, stroke, fill: stroke, paths: uPlot.paths.bars(), points: { show: false } });
       } else {
-        all.push({ label: s.name, stroke, width: width[s.style], points: { show: false } });
+        all.push({ label: s.name, stroke, width: width[s.style], points: { show: false },
+          ...(inPieces(vector(s.y)) && { paths: pieces }) });
       }
     });
     return { all, bands };
@@ -85,7 +110,7 @@
 
   function axis(label, size) {
     const font = "12px system-ui, sans-serif";
-    return { label, size, font, labelFont: font, labelSize: 22, stroke: colour("--soft"),
+    return { label, size, font, values: tickLabels, labelFont: font, labelSize: 22, stroke: colour("--soft"),
       grid: { stroke: colour("--grid"), width: 1 }, ticks: { stroke: colour("--grid"), width: 1 } };
   }
 
