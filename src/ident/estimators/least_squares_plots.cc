@@ -9,6 +9,9 @@
 namespace ident {
 namespace {
 
+constexpr double kInSight =
+    20.0;  // times what is kept: a reading left out that is larger would hide all else
+
 using Style = Series::Style;
 
 std::vector<double> sorted_finite(std::span<const double> x) {
@@ -35,11 +38,20 @@ Plot residual_plot(const ResidualNames& names, std::span<const double> x, const 
             .y_label = names.channel + " residual [" + names.unit + "]"};
   Series kept{.name = names.channel + " residual", .style = Style::points};
   Series out{.name = "left out", .style = Style::points};
+  double largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!rejected[i] && std::isfinite(residual[i])) largest = std::max(largest, std::abs(residual[i]));
+  int beyond = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
+    if (rejected[i] && std::abs(residual[i]) > kInSight * largest) {
+      ++beyond;
+      continue;
+    }
     Series& series = rejected[i] ? out : kept;
     series.x.push_back(x[i]);
     series.y.push_back(residual[i]);
   }
+  if (beyond > 0) plot.caption += " Beyond the picture, left out: " + std::to_string(beyond) + ".";
   plot.series.push_back(std::move(kept));
   if (!out.x.empty()) plot.series.push_back(std::move(out));
   return plot;
@@ -93,7 +105,10 @@ Plot autocorrelation_plot(const ResidualNames& names, std::span<const double> re
     return r;
   };
   const double edge = 1.96 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, residual.size())));
-  const std::vector<double> raw = after_first(autocorrelation(residual, lags));
+  std::vector<double> kept(residual.begin(), residual.end());
+  for (std::size_t i = 0; i < kept.size() && standardized.size() == kept.size(); ++i)
+    if (std::isnan(standardized[i])) kept[i] = kNaN;  // an outlier
+  const std::vector<double> raw = after_first(autocorrelation(kept, lags));
   Series band{.name = "white noise, 95 %",
               .x = one_to(raw.size()),
               .y = std::vector<double>(raw.size(), -edge),

@@ -167,9 +167,14 @@ void expect_thrust(const SweepChannel& thrust, const std::string& file) {
 }  // namespace
 
 double SweepChannel::full_scale() const {
-  double top = 0.0;
-  for (const SweepPoint& p : moving) top = std::max(top, std::fabs(p.value - start_tare));
-  return top;
+  constexpr double kGross = 2.0;  // times what the rough law says: a slip of the pen, no scale
+  double top = 0.0, any = 0.0;
+  for (const SweepPoint& p : moving) {
+    const double value = std::fabs(p.value - start_tare);
+    any = std::max(any, value);
+    if (value <= kGross * std::fabs(start_constant) * p.Omega * p.Omega) top = std::max(top, value);
+  }
+  return top > 0 ? top : any;
 }
 
 SweepPoints sweep_points(const SweepRows& rows) {

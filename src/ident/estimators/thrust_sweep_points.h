@@ -30,7 +30,7 @@ struct SweepChannel {
   std::size_t rows = 0;                           ///< that have a value and a speed
   std::size_t used = 0;                           ///< that went into the points
 
-  double full_scale() const;  ///< largest value less the tare
+  double full_scale() const;  ///< largest value less the tare, gross slips aside
 };
 
 /// How the points of a file came about.

@@ -20,15 +20,18 @@ std::string with_std(const LeastSquaresFit& fit, const char* name) {
 }
 
 /// Points, the quadratic law and the one with a linear term, over speed.
-Plot fit_plot(const SweepFile& file, const SweepChannel& channel, const char* constant,
-              const std::string& id) {
+Plot fit_plot(const SweepFile& file, const SweepChannel& channel, const std::vector<bool>& rejected,
+              const char* constant, const std::string& id) {
   Series points{.name = channel.name + " measured", .style = Style::points}, quadratic{.name = "k Omega^2"},
-      linear{.name = "a + b Omega + c Omega^2"};
+      linear{.name = "a + b Omega + c Omega^2"}, out{.name = "left out", .style = Style::points};
+  const double scale = channel.full_scale();
   double top = 0.0;
-  for (const SweepPoint& p : channel.moving) {
-    points.x.push_back(p.Omega);
-    points.y.push_back(p.value);
+  for (std::size_t i = 0; i < channel.moving.size(); ++i) {
+    const SweepPoint& p = channel.moving[i];
     top = std::max(top, p.Omega);
+    if (rejected[i] && std::abs(p.value) > 2 * scale) continue;  // it would hide all else
+    Series& series = rejected[i] ? out : points;
+    series.x.push_back(p.Omega), series.y.push_back(p.value);
   }
   const LeastSquaresFit &fit = file.fit.fit, &bent = file.linear.fit;
   const double tare = fit.value(channel.name + "_tare");
@@ -41,11 +44,13 @@ Plot fit_plot(const SweepFile& file, const SweepChannel& channel, const char* co
     linear.y.push_back(bent.value(channel.name + "_tare") + offset + bent.value(channel.name + "_slope") * w +
                        bent.value(constant) * w * w);
   }
-  return {.id = id + "-fit",
-          .title = channel.name + " over rotor speed",
-          .x_label = "rotor speed [rad/s]",
-          .y_label = fmt::format("{} [{}]", channel.name, channel.unit),
-          .series = {points, quadratic, linear}};
+  Plot plot{.id = id + "-fit",
+            .title = channel.name + " over rotor speed",
+            .x_label = "rotor speed [rad/s]",
+            .y_label = fmt::format("{} [{}]", channel.name, channel.unit),
+            .series = {points, quadratic, linear}};
+  if (!out.x.empty()) plot.series.push_back(std::move(out));
+  return plot;
 }
 
 void add_channel_plots(const SweepFile& file, const SweepChannel& channel, const ChannelResiduals& residuals,
@@ -54,7 +59,7 @@ void add_channel_plots(const SweepFile& file, const SweepChannel& channel, const
   const ResidualNames names{.id = id, .channel = channel.name, .unit = channel.unit};
   std::vector<double> place;
   for (const SweepPoint& p : channel.moving) place.push_back(p.place);
-  plots.push_back(fit_plot(file, channel, constant, id));
+  plots.push_back(fit_plot(file, channel, residuals.rejected, constant, id));
   plots.push_back(
       residual_plot(names, residuals.Omega, "rotor speed [rad/s]", residuals.residual, residuals.rejected));
   plots.push_back(residual_plot(names, place, file.rows.is_log ? "time [s]" : "row", residuals.residual,
