@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "ident/core/error.h"
 
@@ -19,6 +20,7 @@ constexpr double kMost = 6.0;
 // What the neighbours differ, against a spike; and the share of a signal beyond which it is no accident.
 constexpr double kAgree = 0.3;
 constexpr double kAccident = 0.01;
+constexpr double kImpossible = 100.0;  // times what all but a hundredth of the commands are
 constexpr double kOneGap = 3.0;  // times the usual step: samples further apart say nothing of each other
 constexpr std::size_t kFew = 50;
 constexpr double kNormal = 1.4826;  // standard deviation over the median of sizes
@@ -60,13 +62,25 @@ std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vect
   return accident ? spikes : std::vector<std::size_t>{};
 }
 
-}  // namespace
+// Rows whose value is of another kind than the rest.
+std::vector<std::size_t> impossible_in(const std::vector<double>& values) {
+  std::vector<double> sizes;
+  for (const double value : values)
+    if (std::isfinite(value)) sizes.push_back(std::abs(value));
+  std::vector<std::size_t> out;
+  if (sizes.size() < kFew) return out;
+  const double most = kImpossible * quantile(std::move(sizes), 1 - kAccident);
+  for (std::size_t i = 0; i < values.size() && most > 0; ++i)
+    if (std::abs(values[i]) > most) out.push_back(i);
+  return out;
+}
 
-void drop_spikes(FlightLog& log, Components sensor, const std::string& name) {
+void drop(FlightLog& log, Components sensor, const std::string& name,
+          const std::function<std::vector<std::size_t>(const std::vector<double>&)>& wrong_rows) {
   std::size_t count = 0;
   double first = kNaN;
   for (std::vector<double>& values : sensor)
-    for (const std::size_t i : spikes_of(log.t, values)) {
+    for (const std::size_t i : wrong_rows(values)) {
       values[i] = kNaN, ++count;
       if (!(log.t[i] > first)) first = log.t[i];
     }
@@ -75,6 +89,16 @@ void drop_spikes(FlightLog& log, Components sensor, const std::string& name) {
       {"spikes", fmt::format("{}: {}: values far off the ones around them count as not sampled: {}, the "
                              "first at t = {:.6g} s",
                              log.file, name, count, first)});
+}
+
+}  // namespace
+
+void drop_spikes(FlightLog& log, Components sensor, const std::string& name) {
+  drop(log, sensor, name, [&](const std::vector<double>& values) { return spikes_of(log.t, values); });
+}
+
+void drop_impossible(FlightLog& log, Components commands, const std::string& name) {
+  drop(log, commands, name, impossible_in);
 }
 
 }  // namespace ident

@@ -11,4 +11,8 @@ namespace ident {
 /// fell over on the way to the log. None where they are too many for that.
 void drop_spikes(FlightLog& log, Components sensor, const std::string& name);
 
+/// The same for commands, which may well jump for one sample: only values a hundred times larger than all but
+/// a hundredth of them.
+void drop_impossible(FlightLog& log, Components commands, const std::string& name);
+
 }  // namespace ident

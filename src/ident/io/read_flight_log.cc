@@ -171,7 +171,10 @@ class Builder {
       if (sensor.components.size() == 3) drop_spikes(log_, sensor.components, sensor.name);
       found.push_back({sensor.name, sensor.components});
     }
-    if (log_.has_commands()) found.push_back({"commands", log_.delta});
+    if (log_.has_commands()) {
+      drop_impossible(log_, log_.delta, "commands");
+      found.push_back({"commands", log_.delta});
+    }
     if (log_.has_rotor_speeds()) found.push_back({"rotor speeds", log_.Omega});
     tell_rates(log_, found);
   }
