@@ -99,6 +99,59 @@ TEST(SpeedSmoother, FollowsBurstsAndSmoothsWhatIsCalm) {
   EXPECT_LT(rms(burst, burst_found), 0.65 * 3.0);
 }
 
+// Hover, then a sudden stop, or a sample that is false: every row keeps a number, and a false sample its
+// neighbours.
+TEST(SpeedSmoother, SurvivesWhatNoCalmFlightExpects) {
+  for (const double noise : {0.2, 3.0}) {
+    Speed stop, slip;
+    Random random(5);
+    double speed = 800;
+    for (int i = 0; i < 10000; ++i) {
+      const double t = i / 250.0;
+      if (t > 30) speed += (200 - speed) * 0.25;
+      const double e = noise * random.normal();
+      stop.t.push_back(t), stop.truth.push_back(speed), stop.seen.push_back(speed + e);
+      const bool is_false = i == 7000 || i == 7001;
+      slip.t.push_back(t), slip.truth.push_back(800), slip.seen.push_back(is_false ? 1.5 : 800 + e);
+    }
+    for (const Speed& s : {stop, slip}) {
+      const SmoothedSpeed found = smoothed_speed(s.t, s.seen);
+      EXPECT_LT(rms(found.likely, s.truth), noise) << noise;
+      EXPECT_LT(rms(found.rougher, s.truth), noise) << noise;
+    }
+    EXPECT_NEAR(smoothed_speed(slip.t, slip.seen).likely[7000], 800, noise);
+  }
+}
+
+// A motor that shakes more later on.
+TEST(SpeedSmoother, NoiseMayChange) {
+  Speed s;
+  Random random(9);
+  std::vector<double> truth, later;
+  for (int i = 0; i < 12000; ++i) {
+    const double t = i / 250.0, noise = t < 17 ? 0.6 : 3.2;
+    s.t.push_back(t), s.truth.push_back(800 + 5 * std::sin(2 * t));
+    s.seen.push_back(s.truth.back() + noise * random.normal());
+  }
+  const std::vector<double> found = smoothed_speed(s.t, s.seen).likely;
+  for (std::size_t i = 8000; i < 12000; ++i) truth.push_back(s.truth[i]), later.push_back(found[i]);
+  EXPECT_LT(rms(truth, later), 0.3 * 3.2);
+}
+
+// Few speeds in rows of other sensors, the first of them late.
+TEST(SpeedSmoother, FewSpeedsAmongManyRowsAreSmoothedToo) {
+  Speed s;
+  Random random(4);
+  for (int i = 0; i < 60000; ++i) {
+    const double t = i / 1000.0;
+    s.t.push_back(t), s.truth.push_back(800 + 20 * std::sin(t));
+    s.seen.push_back(i > 4100 && i % 20 == 0 ? s.truth.back() + 3.0 * random.normal() : kNaN);
+  }
+  const std::vector<double> found = smoothed_speed(s.t, s.seen).likely;
+  std::vector<double> truth(s.truth.begin() + 5000, s.truth.end()), flown(found.begin() + 5000, found.end());
+  EXPECT_LT(rms(flown, truth), 0.5 * 3.0);
+}
+
 // Speeds with one per cent of noise: taken as they are, they make Jp and the inertias wrong by many standard
 // deviations.
 TEST(SpeedSmoother, NoisySpeedsAsInputGiveNoConfidentWrongNumber) {

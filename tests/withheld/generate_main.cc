@@ -67,6 +67,9 @@ withheld::CaseOrder order_of(const Options& o, int index) {
     order.kind = is_outside ? "outside" : order.members.size() > 1 ? "pair" : "single";
   }
   order.size = o.size, order.commands = o.commands;
+  for (const std::string& name : order.members)
+    if (!o.commands && withheld::acts_before_rotor_speed(name))
+      throw std::invalid_argument(name + " does not show in logs without commands");
   return order;
 }
 

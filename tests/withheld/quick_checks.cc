@@ -133,5 +133,20 @@ TEST(WithheldCase, TheWantedSizeIsMet) {
   EXPECT_NEAR(drawn.withheld[0].over_limit, 5, 1.5);
 }
 
+TEST(WithheldCase, LogsOfSpeedsHideNothingThatTheyCannotShow) {
+  int with_motors = 0;
+  for (int index = 0; index < 400; ++index) {
+    const auto hidden = [](const CaseOrder& order) {
+      return std::any_of(order.members.begin(), order.members.end(), acts_before_rotor_speed);
+    };
+    EXPECT_FALSE(hidden(campaign_order(1, index, "", false)));
+    with_motors += hidden(campaign_order(1, index, "", true));
+  }
+  EXPECT_GT(with_motors, 20);
+  CaseOrder order{"single", {"rotor_drag"}, 5};
+  order.commands = false;
+  EXPECT_TRUE(draw_case(13, 1, order).instruments.rotor_speeds);
+}
+
 }  // namespace
 }  // namespace withheld

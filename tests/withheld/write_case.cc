@@ -104,6 +104,7 @@ nlohmann::json vehicle_json(const Case& c) {
                         {"hover_command", c.vehicle.hover_command()},
                         {"rate", i.rate},
                         {"rotor_speeds", i.rotor_speeds},
+                        {"commands", c.order.commands},
                         {"noise",
                          {{"gyro", i.gyro},
                           {"acc", i.acc},

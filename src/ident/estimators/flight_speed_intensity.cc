@@ -1,5 +1,6 @@
-// Likelihood of constant intensities first, which tells the noise; then a chain of intensities in time: one
-// filter runs for each of a range of them, and what they make of each sample is weighed forward and backward.
+// Likelihood of constant intensities first, block by block, which tells the noise; then a chain of
+// intensities in time: one filter runs for each of a range of them as if it had held from the start, and what
+// they make of each sample is weighed forward and backward.
 #include "ident/estimators/flight_speed_intensity.h"
 
 #include "ident/core/result.h"
@@ -7,23 +8,29 @@
 namespace ident {
 namespace {
 
-constexpr std::size_t kEnough = 4000;  // of the first of these samples the noise is found
+constexpr std::size_t kBlock = 4000;  // samples of which the noise is taken to be even
 // Logarithm of the intensity in units of the noise's variance over the cube of the distance of samples: from
 // a straight line to no smoothing at all. Beyond the second there is no noise.
 constexpr double kSmooth = -16.0, kNoNoise = 9.0;
-constexpr int kLevels = 26;     // of the chain, one apart
-constexpr double kMove = 0.003;  // chance that the level changes from one sample to the next
+constexpr int kLevels = 26;  // of the chain, one apart
+// Chances that the level becomes a neighbouring one, and any one, from one sample to the next. With more of
+// the first, noise passes for motion: in simulated flights inertias were too large then.
+constexpr float kMove = 0.003F, kJump = 1e-4F;
+// Least likelihood of a sample against that of its best level: a false one says no more than that, and a
+// burst is one of some samples.
+constexpr float kLeast = 1e-4F;
+constexpr float kNever = 1e-20F;  // keeps a level in reach
 
 struct Level {
   double log_q;     // NaN where the samples leave no noise
-  double variance;  // of the noise, in units of the samples'
+  double variance;  // of the noise, (rad/s)^2
 };
 
 // Minus twice the log likelihood of an intensity, the level of the noise at its best.
 double surprise(const SpeedSamples& samples, double q, double* variance) {
   double square = 0, log_det = 0, n = -2;  // two samples say where it begins
   filter_speed(
-      samples, [q](std::size_t) { return q; }, std::min(samples.y.size(), kEnough),
+      samples, [q](std::size_t) { return q; }, samples.y.size(),
       [&](std::size_t i, const SpeedState& predicted, const SpeedState&) {
         if (!std::isfinite(samples.y[i]) || ++n <= 0) return;
         const double S = predicted.P(0, 0) + 1.0, e = samples.y[i] - predicted.x[0];
@@ -53,62 +60,85 @@ Level constant_level(const SpeedSamples& samples, double cube) {
   return {found, variance};
 }
 
+// Variance of the noise in each row, from blocks of samples; NaN in those that leave none.
+std::vector<double> noise_of(const SpeedSamples& samples, double cube) {
+  const std::size_t n = samples.y.size();
+  std::size_t left = 0;
+  for (const double y : samples.y) left += std::isfinite(y) ? 1 : 0;
+  std::vector<double> out;
+  while (out.size() < n) {
+    const std::size_t wanted = left < 2 * kBlock ? left : kBlock;  // the last one takes the rest
+    std::vector<double> t, y;
+    std::size_t taken = 0;
+    for (std::size_t i = out.size(); i < n && (taken < wanted || wanted == left); ++i) {
+      t.push_back(samples.t[i]), y.push_back(samples.y[i]);
+      taken += std::isfinite(samples.y[i]) ? 1 : 0;
+    }
+    left -= taken;
+    const double variance = constant_level({t, y, samples.distance}, cube).variance;
+    out.insert(out.end(), t.size(), variance);
+  }
+  return out;
+}
+
 using Weights = Eigen::Array<float, kLevels, 1>;
 
 double log_intensity(int level) { return kSmooth + level; }
 
 // What each level's own filter makes of the samples: likelihoods of every row, the best of them one.
-std::vector<Weights> likelihoods(const SpeedSamples& samples, double variance, double cube) {
+std::vector<Weights> likelihoods(const SpeedSamples& samples, const std::vector<double>& noise, double cube) {
   std::vector<Weights> out(samples.y.size(), Weights::Zero());
   for (int level = 0; level < kLevels; ++level) {
     const double q = std::exp(log_intensity(level)) / cube;
     filter_speed(
         samples, [q](std::size_t) { return q; }, samples.y.size(),
         [&](std::size_t i, const SpeedState& predicted, const SpeedState&) {
-          if (!std::isfinite(samples.y[i])) return;
+          if (!std::isfinite(samples.y[i]) || !std::isfinite(noise[i])) return;
           const double S = predicted.P(0, 0) + 1.0, e = samples.y[i] - predicted.x[0];
-          out[i][level] = static_cast<float>(-0.5 * (e * e / (S * variance) + std::log(S)));
+          out[i][level] = static_cast<float>(-0.5 * (e * e / (S * noise[i]) + std::log(S)));
         });
   }
-  for (Weights& w : out) w = (w - w.maxCoeff()).exp();
+  for (Weights& w : out) w = (w - w.maxCoeff()).exp().max(kLeast);
   return out;
 }
 
-// One step of the chain: a level stays or becomes the next lower or higher one.
+// One step of the chain: a level stays, becomes the next lower or higher one, or any.
 Weights moved(const Weights& p) {
-  Weights out = (1.0F - static_cast<float>(kMove)) * p;
-  const float part = static_cast<float>(kMove) / 2;
-  out.head<kLevels - 1>() += part * p.tail<kLevels - 1>();
-  out.tail<kLevels - 1>() += part * p.head<kLevels - 1>();
-  out[0] += part * p[0], out[kLevels - 1] += part * p[kLevels - 1];
+  Weights out = (1.0F - kMove - kJump) * p + kJump * p.mean();
+  out.head<kLevels - 1>() += kMove / 2 * p.tail<kLevels - 1>();
+  out.tail<kLevels - 1>() += kMove / 2 * p.head<kLevels - 1>();
+  out[0] += kMove / 2 * p[0], out[kLevels - 1] += kMove / 2 * p[kLevels - 1];
   return out;
 }
+
+Weights normal(const Weights& p) { return (p / p.sum()).max(kNever); }
 
 }  // namespace
 
-std::vector<double> likely_intensities(const SpeedSamples& samples) {
+SpeedIntensities likely_intensities(const SpeedSamples& samples) {
   const double cube = std::pow(samples.distance, 3);
-  const Level constant = constant_level(samples, cube);
-  if (!std::isfinite(constant.log_q)) return {};
-  const std::vector<Weights> seen = likelihoods(samples, constant.variance, cube);
+  std::vector<double> noise = noise_of(samples, cube);
+  if (std::ranges::none_of(noise, [](double v) { return std::isfinite(v); })) return {};
+  const std::vector<Weights> seen = likelihoods(samples, noise, cube);
   const std::size_t n = seen.size();
   const auto sampled = [&](std::size_t i) { return std::isfinite(samples.y[i]); };
 
   std::vector<Weights> past(n);
   Weights p = Weights::Constant(1.0F / kLevels);
   for (std::size_t i = 0; i < n; ++i) {
-    if (sampled(i)) p = moved(p) * seen[i];
-    past[i] = p /= p.sum();
+    if (sampled(i)) p = normal(moved(p) * seen[i]);
+    past[i] = p;
   }
   Weights levels;
   for (int level = 0; level < kLevels; ++level) levels[level] = static_cast<float>(log_intensity(level));
-  std::vector<double> out(n);
-  Weights future = Weights::Ones();
+  SpeedIntensities out{std::vector<double>(n), std::move(noise)};
+  Weights future = Weights::Constant(1.0F / kLevels);
   for (std::size_t i = n; i-- > 0;) {
     const Weights both = past[i] * future;
-    out[i] = std::exp(static_cast<double>((both * levels).sum() / both.sum())) / cube;
-    if (sampled(i)) future = moved(future * seen[i]);
-    future /= future.sum();
+    const double log_q =
+        std::isfinite(out.noise[i]) ? static_cast<double>((both * levels).sum() / both.sum()) : kNoNoise + 2;
+    out.q[i] = std::exp(log_q) / cube;
+    if (sampled(i)) future = normal(moved(future * seen[i]));
   }
   return out;
 }

@@ -7,8 +7,13 @@
 
 namespace ident {
 
-/// The intensity from each row's predecessor to it, in units of the noise's variance over s^3: high where the
-/// motor is driven hard, low where it hovers. Empty where the samples leave no noise to be seen.
-std::vector<double> likely_intensities(const SpeedSamples& samples);
+/// By row; both empty where the samples leave no noise to be seen.
+struct SpeedIntensities {
+  std::vector<double> q;  ///< from the row before to this one, in units of the noise's variance over s^3:
+                          ///< high where the motor is driven hard, low where it hovers
+  std::vector<double> noise;  ///< variance of a sample, (rad/s)^2; NaN where there is none
+};
+
+SpeedIntensities likely_intensities(const SpeedSamples& samples);
 
 }  // namespace ident

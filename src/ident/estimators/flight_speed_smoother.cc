@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kLeast = 50;  // samples that tell noise from motion
 // Times the likely intensities: a motor does not walk at random.
 constexpr double kRougher = 3.0;
+constexpr double kFalse = 8.0;  // standard deviations of the noise
 
 std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<double>& q, double times) {
   const std::size_t n = samples.y.size();
@@ -34,6 +35,19 @@ std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<doub
   return out;
 }
 
+// Takes out samples that lie far off what all others say, where they are few; whether there are any.
+bool drop_false(SpeedSamples& samples, const std::vector<double>& likely, const std::vector<double>& noise) {
+  std::vector<std::size_t> rows;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < likely.size(); ++i) {
+    count += std::isfinite(samples.y[i]) ? 1 : 0;
+    if (std::abs(samples.y[i] - likely[i]) > kFalse * std::sqrt(noise[i])) rows.push_back(i);
+  }
+  if (rows.empty() || rows.size() > count / 100) return false;
+  for (const std::size_t i : rows) samples.y[i] = kNaN;
+  return true;
+}
+
 }  // namespace
 
 SmoothedSpeed smoothed_speed(const std::vector<double>& t, const std::vector<double>& speed) {
@@ -51,9 +65,15 @@ SmoothedSpeed smoothed_speed(const std::vector<double>& t, const std::vector<dou
   const std::vector<double> as_it_is = interpolated(t, speed);
   if (count < kLeast) return {as_it_is, as_it_is};
   samples.distance = (end - first) / static_cast<double>(count - 1);
-  const std::vector<double> q = likely_intensities(samples);
-  if (q.empty()) return {as_it_is, as_it_is};
-  return {smoothed(samples, q, 1.0), smoothed(samples, q, kRougher)};
+  SpeedIntensities found = likely_intensities(samples);
+  if (found.q.empty()) return {as_it_is, as_it_is};
+  std::vector<double> likely = smoothed(samples, found.q, 1.0);
+  if (drop_false(samples, likely, found.noise)) {
+    found = likely_intensities(samples);
+    if (found.q.empty()) return {as_it_is, as_it_is};
+    likely = smoothed(samples, found.q, 1.0);
+  }
+  return {std::move(likely), smoothed(samples, found.q, kRougher)};
 }
 
 }  // namespace ident

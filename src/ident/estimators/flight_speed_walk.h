@@ -16,7 +16,7 @@ struct SpeedSamples {
   double distance = 0;    ///< of samples, s
 };
 
-/// Speed and its rate, in units of the samples' noise, and their covariance.
+/// Speed and its rate, rad/s and rad/s^2, and their covariance in units of the noise's variance.
 struct SpeedState {
   Eigen::Vector2d x;
   Eigen::Matrix2d P;

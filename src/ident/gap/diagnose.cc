@@ -108,23 +108,6 @@ Judged in_hover(Judged verdict) {
   return verdict;
 }
 
-// What shows with one smoothing of the speeds and not with another is no cause; and what is unknown may all
-// be their noise.
-Judged with_noisy_input(Judged verdict, const std::string& depends) {
-  if (!depends.empty() && !verdict.effects.empty()) {
-    verdict.sentence = fmt::format(
-        "A gap is there that looks like {}, but the size of {} depends on how the speeds are smoothed.",
-        fmt::join(verdict.effects, " with "), depends);
-    verdict.confused_with = std::exchange(verdict.effects, {});
-    verdict.status = "unknown";
-    verdict.refused = true;
-  }
-  if (verdict.status == "unknown")
-    verdict.sentence +=
-        " Measured rotor speeds are the input here, and their noise may be all of it: log the commands too.";
-  return verdict;
-}
-
 // Values that only a cause would have that is not named are not known.
 void doubt_refused(std::vector<Parameter>& parameters, const SearchResult& search) {
   for (Parameter& p : parameters)
@@ -163,7 +146,10 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   const bool hover = is_hover(tested);
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
                                      options.progress};
-  const SearchResult search = search_causes(record, vehicle, p, search_options);
+  SearchResult search = search_causes(record, vehicle, p, search_options);
+  const Eigen::VectorXd moved = moved_by_rougher_speeds(record, *search.best.theta, search.best.fit);
+  const std::vector<std::string> loose = depend_on_smoothing(search.best, moved);
+  search.best.fit.covariance += moved * moved.transpose();
   // What a cause explains, logs need not agree on without it: a battery at another charge.
   if (!logs_agree(record, logs, *search.base.theta, search.base.fit).empty())
     for (const Warning& w : logs_agree(record, logs, *search.best.theta, search.best.fit))
@@ -206,9 +192,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
-  const Eigen::VectorXd moved = moved_by_rougher_speeds(record, best, search.best.fit);
   FlightFit body = search.best.fit;
-  body.covariance += moved * moved.transpose();
   body.smoother.reset(), body.u = nearest_body(best, body);
   result.parameters = flight_parameters(best, body, "gap");
   warn_of_inertia(result, best, search.best.fit);
@@ -221,7 +205,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   doubt_negative_dead_time(result);
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
-  if (noisy_input) verdict = with_noisy_input(std::move(verdict), depends_on_smoothing(search.best, moved));
+  if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},

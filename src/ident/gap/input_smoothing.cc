@@ -1,7 +1,12 @@
-// A true cause keeps its size.
+// Compares the size of each cause found with how far the other smoothing of the speeds moves it.
 #include "ident/gap/input_smoothing.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ident/effects/catalogue.h"
 
@@ -12,29 +17,46 @@ namespace {
 constexpr double kMovesBy = 0.25, kMoves = 1.0;
 
 double null_of(const FreeConstant& constant, const Candidate& cause) {
-  if (cause.parameter >= 0) return constant.prior_value;
-  const EffectParameter* parameter = find_effect_parameter(constant.name);
-  return parameter ? parameter->null_value : 0.0;
+  return cause.parameter >= 0 ? constant.prior_value : find_parameter(constant.name)->null_value;
 }
 
 }  // namespace
 
-std::string depends_on_smoothing(const FittedModel& model, const Eigen::VectorXd& moved) {
+std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eigen::VectorXd& moved) {
   const Theta& theta = *model.theta;
+  const Eigen::VectorXd &u = model.fit.u, other = u + moved;
+  std::vector<std::string> loose;
   for (const Candidate& cause : model.adopted) {
     double size = 0, moves = 0;
     for (int i = 0; i < theta.constants_count(); ++i) {
       const FreeConstant& constant = theta.constants()[static_cast<std::size_t>(i)];
       if (!is_constant_of(cause, constant, i)) continue;
-      const double std = theta.deviation(model.fit.u, i, model.fit.covariance),
-                   value = theta.physical(model.fit.u, i);
+      const double std = theta.deviation(u, i, model.fit.covariance), value = theta.physical(u, i);
       if (!(std > 0)) continue;
       size += std::pow((value - null_of(constant, cause)) / std, 2);
-      moves += std::pow(theta.slope(model.fit.u, i) * moved[i] / std, 2);
+      moves += std::pow((theta.physical(other, i) - value) / std, 2);
     }
-    if (moves > kMoves * kMoves && moves > kMovesBy * kMovesBy * size) return cause.name;
+    if (moves > kMoves * kMoves && moves > kMovesBy * kMovesBy * size) loose.push_back(cause.name);
   }
-  return {};
+  return loose;
+}
+
+Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose) {
+  const auto depends = std::ranges::find_first_of(verdict.effects, loose);
+  if (depends != verdict.effects.end()) {
+    verdict.sentence = fmt::format(
+        "A gap is there that looks like {}, but the size of {} depends on how the speeds are smoothed.",
+        fmt::join(verdict.effects, " with "), *depends);
+    verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(),
+                                 verdict.effects.end());
+    verdict.effects.clear();
+    verdict.status = "unknown";
+    verdict.refused = true;
+  }
+  if (verdict.status == "unknown")
+    verdict.sentence +=
+        " Measured rotor speeds are the input here, and their noise may be all of it: log the commands too.";
+  return verdict;
 }
 
 }  // namespace ident

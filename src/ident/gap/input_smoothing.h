@@ -3,13 +3,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ident/gap/fitted_model.h"
+#include "ident/gap/verdict.h"
 
 namespace ident {
 
-/// The cause found whose size depends on how the speeds were smoothed; `moved` is how far the unknowns move
-/// with the other smoothing. Empty where there is none.
-std::string depends_on_smoothing(const FittedModel& model, const Eigen::VectorXd& moved);
+/// The causes found whose size depends on how the speeds were smoothed; `moved` is how far the unknowns move
+/// with the other smoothing, and is not in the model's covariance yet.
+std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eigen::VectorXd& moved);
+
+/// A verdict by measured speeds. None is named where one of those named is among the `loose` ones: the rest
+/// was found beside it. What is unknown may all be noise.
+Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose);
 
 }  // namespace ident
