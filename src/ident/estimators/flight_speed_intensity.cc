@@ -13,12 +13,12 @@ constexpr std::size_t kBlock = 4000;  // samples of which the noise is taken to 
 // a straight line to no smoothing at all. Beyond the second there is no noise.
 constexpr double kSmooth = -16.0, kNoNoise = 9.0;
 constexpr int kLevels = 26;  // of the chain, one apart
-// Chances that the level becomes a neighbouring one, and any one, from one sample to the next. With more of
-// the first, noise passes for motion: in simulated flights inertias were too large then.
-constexpr float kMove = 0.003F, kJump = 1e-4F;
-// Least likelihood of a sample against that of its best level: a false one says no more than that, and a
-// burst is one of some samples.
-constexpr float kLeast = 1e-4F;
+// Chances that the level becomes a neighbouring one, and any one, from one sample to the next. With more,
+// noise passes for motion: what is left of it then grows with what is found of the rate.
+constexpr float kMove = 0.003F, kJump = 1e-15F;
+// Least likelihood of a sample against that of its best level: it takes three in a row to be a burst, so that
+// one or two false ones are none.
+constexpr float kLeast = 1e-6F;
 constexpr float kNever = 1e-20F;  // keeps a level in reach
 
 struct Level {
@@ -130,14 +130,16 @@ SpeedIntensities likely_intensities(const SpeedSamples& samples) {
     past[i] = p;
   }
   Weights levels;
-  for (int level = 0; level < kLevels; ++level) levels[level] = static_cast<float>(log_intensity(level));
+  for (int level = 0; level < kLevels; ++level)
+    levels[level] = static_cast<float>(std::exp(log_intensity(level)));
   SpeedIntensities out{std::vector<double>(n), std::move(noise)};
   Weights future = Weights::Constant(1.0F / kLevels);
   for (std::size_t i = n; i-- > 0;) {
     const Weights both = past[i] * future;
-    const double log_q =
-        std::isfinite(out.noise[i]) ? static_cast<double>((both * levels).sum() / both.sum()) : kNoNoise + 2;
-    out.q[i] = std::exp(log_q) / cube;
+    // The mean, not that of the logarithm: where it is open whether a motor is driven it may be.
+    out.q[i] = (std::isfinite(out.noise[i]) ? static_cast<double>((both * levels).sum() / both.sum())
+                                            : std::exp(kNoNoise + 2)) /
+               cube;
     if (sampled(i)) future = normal(moved(future * seen[i]));
   }
   return out;

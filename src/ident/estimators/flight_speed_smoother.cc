@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kLeast = 50;  // samples that tell noise from motion
 // Times the likely intensities: a motor does not walk at random.
 constexpr double kRougher = 3.0;
+constexpr std::size_t kMostFalse = 2;
 constexpr double kFalse = 8.0;  // standard deviations of the noise
 
 std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<double>& q, double times) {
@@ -35,17 +36,24 @@ std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<doub
   return out;
 }
 
-// Takes out samples that lie far off what all others say, where they are few; whether there are any.
+// Takes out samples that lie far off what all others say, one or two in a row: more are a motor that stops.
+// Whether there are any.
 bool drop_false(SpeedSamples& samples, const std::vector<double>& likely, const std::vector<double>& noise) {
-  std::vector<std::size_t> rows;
-  std::size_t count = 0;
+  std::vector<std::size_t> run, rows;
+  const auto end_run = [&] {
+    if (run.size() <= kMostFalse) rows.insert(rows.end(), run.begin(), run.end());
+    run.clear();
+  };
   for (std::size_t i = 0; i < likely.size(); ++i) {
-    count += std::isfinite(samples.y[i]) ? 1 : 0;
-    if (std::abs(samples.y[i] - likely[i]) > kFalse * std::sqrt(noise[i])) rows.push_back(i);
+    if (!std::isfinite(samples.y[i])) continue;
+    if (std::abs(samples.y[i] - likely[i]) > kFalse * std::sqrt(noise[i]))
+      run.push_back(i);
+    else
+      end_run();
   }
-  if (rows.empty() || rows.size() > count / 100) return false;
+  end_run();
   for (const std::size_t i : rows) samples.y[i] = kNaN;
-  return true;
+  return !rows.empty();
 }
 
 }  // namespace

@@ -57,18 +57,8 @@ VectorXd whole_size(const FittedModel& model, const Candidate& cause) {
   VectorXd d = VectorXd::Zero(theta.size());
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    const double value = theta.physical(model.fit.u, i);
-    double none = 0;
-    if (cause.parameter >= 0) {
-      if (i != cause.parameter) continue;
-      none = c.prior_value;
-    } else {
-      if (c.name.substr(0, c.name.find('.')) != cause.name) continue;
-      const auto at = c.name.find('@');
-      if (at != std::string::npos && std::stoi(c.name.substr(at + 1)) != cause.rotor + 1) continue;
-      none = find_parameter(c.name)->null_value;
-    }
-    d[i] = (value - none) / theta.slope(model.fit.u, i);
+    if (!is_constant_of(cause, c, i)) continue;
+    d[i] = (theta.physical(model.fit.u, i) - value_without(cause, c)) / theta.slope(model.fit.u, i);
   }
   return d;
 }

@@ -57,6 +57,10 @@ bool is_constant_of(const Candidate& cause, const FreeConstant& constant, int i)
   return rotor && name.substr(0, name.find('.')) == cause.name;
 }
 
+double value_without(const Candidate& cause, const FreeConstant& constant) {
+  return cause.parameter >= 0 ? constant.prior_value : find_parameter(constant.name)->null_value;
+}
+
 double payload_reach(const Vehicle& vehicle) {
   double farthest = 0;
   for (const Rotor& rotor : vehicle.rotors) farthest = std::max(farthest, rotor.r_B.norm());

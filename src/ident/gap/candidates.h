@@ -26,6 +26,9 @@ struct Candidate {
 /// Whether unknown i, which is that constant, is one of the cause's.
 bool is_constant_of(const Candidate& cause, const FreeConstant& constant, int i);
 
+/// Value of that constant without the cause: what was stated of it, or where the effect is absent.
+double value_without(const Candidate& cause, const FreeConstant& constant);
+
 /// Base constants followed by the directions of every effect, and the candidates over them.
 struct ExtendedProblem {
   std::vector<FreeConstant> constants;

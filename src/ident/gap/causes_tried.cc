@@ -22,15 +22,13 @@ Json adopted_parameters(const FittedModel& model, const Candidate& cause) {
   Json j = Json::object();
   const Theta& theta = *model.theta;
   for (int i = 0; i < theta.constants_count(); ++i) {
-    std::string name = theta.constants()[static_cast<std::size_t>(i)].name;
+    const FreeConstant& constant = theta.constants()[static_cast<std::size_t>(i)];
+    if (!is_constant_of(cause, constant, i)) continue;
+    std::string name = constant.name;
     double value = theta.physical(model.fit.u, i);
     double std = theta.deviation(model.fit.u, i, model.fit.covariance);
-    if (cause.parameter >= 0 ? i != cause.parameter : name.substr(0, name.find('.')) != cause.name) continue;
     std::string unit = parameter_unit(name);
-    if (const auto at = name.find('@'); at != std::string::npos) {
-      if (cause.rotor + 1 != std::stoi(name.substr(at + 1))) continue;
-      name = name.substr(0, at);
-    }
+    name = name.substr(0, name.find('@'));
     if (name == "ground_effect.radius_sq") {
       name = "ground_effect.radius", unit = "m";
       value = std::sqrt(std::max(value, 1e-12)), std = std / (2 * value);

@@ -57,7 +57,7 @@ Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, co
     for (std::size_t i = 0; i < constants.size(); ++i) {
       const FreeConstant& c = constants[i];
       if (!is_constant_of(other, c, static_cast<int>(i))) continue;
-      const double null = other.parameter >= 0 ? c.prior_value : find_parameter(c.name)->null_value;
+      const double null = value_without(other, c);
       const auto k = static_cast<Eigen::Index>(i);
       if (c.positive)
         out[k] = null > 0 ? std::log(null / c.start) : kNothing;

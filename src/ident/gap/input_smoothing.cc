@@ -8,17 +8,11 @@
 #include <cmath>
 #include <utility>
 
-#include "ident/effects/catalogue.h"
-
 namespace ident {
 namespace {
 
 // Share of a cause's size that may move, both in standard deviations, and what counts as moved at all.
 constexpr double kMovesBy = 0.25, kMoves = 1.0;
-
-double null_of(const FreeConstant& constant, const Candidate& cause) {
-  return cause.parameter >= 0 ? constant.prior_value : find_parameter(constant.name)->null_value;
-}
 
 }  // namespace
 
@@ -33,7 +27,7 @@ std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eig
       if (!is_constant_of(cause, constant, i)) continue;
       const double std = theta.deviation(u, i, model.fit.covariance), value = theta.physical(u, i);
       if (!(std > 0)) continue;
-      size += std::pow((value - null_of(constant, cause)) / std, 2);
+      size += std::pow((value - value_without(cause, constant)) / std, 2);
       moves += std::pow((theta.physical(other, i) - value) / std, 2);
     }
     if (moves > kMoves * kMoves && moves > kMovesBy * kMovesBy * size) loose.push_back(cause.name);

@@ -27,11 +27,7 @@ Switch switch_of(const Candidate& cause, const FittedModel& best, const std::vec
   const auto& constants = best.theta->constants();
   for (std::size_t i = 0; i < constants.size(); ++i) {
     const FreeConstant& c = constants[i];
-    const bool own = cause.parameter >= 0 ? static_cast<int>(i) == cause.parameter
-                                          : c.name.substr(0, c.name.find('.')) == cause.name;
-    const auto at = c.name.find('@');
-    const bool other_rotor = at != std::string::npos && cause.rotor + 1 != std::stoi(c.name.substr(at + 1));
-    if (!own || other_rotor) continue;
+    if (!is_constant_of(cause, c, static_cast<int>(i))) continue;
     const auto index = static_cast<std::size_t>(c.index);
     out.off.emplace_back(index, cause.parameter >= 0 ? base[index] : find_parameter(c.name)->null_value);
     out.only = out.off.size() == 1 ? static_cast<int>(i) : -1;
