@@ -66,16 +66,20 @@ TEST(InputSmoothing, APlaceThatIsAProductMovesAsThePlaceDoes) {
 
 TEST(InputSmoothing, AVerdictWithALooseCauseIsWithdrawnAndKeepsItsRivals) {
   Judged verdict{.status = "ambiguous", .effects = {"wind"}, .confused_with = {"payload"}};
-  const Judged kept = with_noisy_input(verdict, {"rotor_drag"});  // which only carries the wind
+  GapClosed gap;
+  gap.before = 3, gap.after = 1;
+  const Judged kept = with_noisy_input(verdict, {"rotor_drag"}, gap);  // which only carries the wind
   EXPECT_EQ(kept.status, "ambiguous");
   EXPECT_EQ(kept.effects, Names{"wind"});
-  const Judged withdrawn = with_noisy_input(verdict, {"rotor_drag", "wind"});
+  const Judged withdrawn = with_noisy_input(verdict, {"rotor_drag", "wind"}, gap);
   EXPECT_EQ(withdrawn.status, "unknown");
   EXPECT_TRUE(withdrawn.effects.empty());
   EXPECT_TRUE(withdrawn.refused);
   EXPECT_EQ(withdrawn.confused_with, (Names{"wind", "payload"}));
   EXPECT_NE(withdrawn.sentence.find("the size of wind depends"), std::string::npos);
   EXPECT_NE(withdrawn.sentence.find("log the commands too"), std::string::npos);
+  gap.after = 3.1;
+  EXPECT_EQ(with_noisy_input(verdict, {}, gap).status, "unknown");
 }
 
 std::vector<FlightLog> without_commands(const Vehicle& truth, double noise) {

@@ -19,6 +19,9 @@ constexpr float kMove = 0.003F, kJump = 1e-15F;
 // Least likelihood of a sample against that of its best level: it takes three in a row to be a burst, so that
 // one or two false ones are none.
 constexpr float kLeast = 1e-6F;
+// The intensity is a power mean over the levels: that of the logarithm would leave out what is driven with a
+// chance of one in two, the plain one follows what hardly may be.
+constexpr double kPower = 0.25;
 constexpr float kNever = 1e-20F;  // keeps a level in reach
 
 struct Level {
@@ -131,14 +134,14 @@ SpeedIntensities likely_intensities(const SpeedSamples& samples) {
   }
   Weights levels;
   for (int level = 0; level < kLevels; ++level)
-    levels[level] = static_cast<float>(std::exp(log_intensity(level)));
+    levels[level] = static_cast<float>(std::exp(kPower * log_intensity(level)));
   SpeedIntensities out{std::vector<double>(n), std::move(noise)};
   Weights future = Weights::Constant(1.0F / kLevels);
   for (std::size_t i = n; i-- > 0;) {
     const Weights both = past[i] * future;
-    // The mean, not that of the logarithm: where it is open whether a motor is driven it may be.
-    out.q[i] = (std::isfinite(out.noise[i]) ? static_cast<double>((both * levels).sum() / both.sum())
-                                            : std::exp(kNoNoise + 2)) /
+    out.q[i] = (std::isfinite(out.noise[i])
+                    ? std::pow(static_cast<double>((both * levels).sum() / both.sum()), 1 / kPower)
+                    : std::exp(kNoNoise + 2)) /
                cube;
     if (sampled(i)) future = normal(moved(future * seen[i]));
   }

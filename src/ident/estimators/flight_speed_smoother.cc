@@ -16,6 +16,7 @@ constexpr std::size_t kLeast = 50;  // samples that tell noise from motion
 // Times the likely intensities: a motor does not walk at random.
 constexpr double kRougher = 3.0;
 constexpr std::size_t kMostFalse = 2;
+constexpr double kAgree = 3.0;  // times what its neighbours differ, a false sample is off
 constexpr double kFalse = 8.0;  // standard deviations of the noise
 
 std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<double>& q, double times) {
@@ -36,22 +37,26 @@ std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<doub
   return out;
 }
 
-// Takes out samples that lie far off what all others say, one or two in a row: more are a motor that stops.
-// Whether there are any.
+// Takes out samples that lie far off what all others say, one or two in a row between some that agree: else
+// it is a motor that stops. Whether there are any.
 bool drop_false(SpeedSamples& samples, const std::vector<double>& likely, const std::vector<double>& noise) {
   std::vector<std::size_t> run, rows;
-  const auto end_run = [&] {
-    if (run.size() <= kMostFalse) rows.insert(rows.end(), run.begin(), run.end());
-    run.clear();
+  double before = kNaN;
+  const auto end_run = [&](double after) {
+    const auto off = [&](std::size_t i) {
+      return std::abs(samples.y[i] - after) > kAgree * std::abs(before - after);
+    };
+    if (run.size() <= kMostFalse && std::ranges::all_of(run, off))
+      rows.insert(rows.end(), run.begin(), run.end());
+    run.clear(), before = after;
   };
   for (std::size_t i = 0; i < likely.size(); ++i) {
     if (!std::isfinite(samples.y[i])) continue;
     if (std::abs(samples.y[i] - likely[i]) > kFalse * std::sqrt(noise[i]))
       run.push_back(i);
     else
-      end_run();
+      end_run(samples.y[i]);
   }
-  end_run();
   for (const std::size_t i : rows) samples.y[i] = kNaN;
   return !rows.empty();
 }

@@ -205,7 +205,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   doubt_negative_dead_time(result);
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
-  if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose);
+  if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},

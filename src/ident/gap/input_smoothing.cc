@@ -35,12 +35,16 @@ std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eig
   return loose;
 }
 
-Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose) {
+Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose, const GapClosed& gap) {
   const auto depends = std::ranges::find_first_of(verdict.effects, loose);
-  if (depends != verdict.effects.end()) {
-    verdict.sentence = fmt::format(
-        "A gap is there that looks like {}, but the size of {} depends on how the speeds are smoothed.",
-        fmt::join(verdict.effects, " with "), *depends);
+  std::string against;
+  if (depends != verdict.effects.end())
+    against = fmt::format("the size of {} depends on how the speeds are smoothed", *depends);
+  else if (!verdict.effects.empty() && gap.after >= gap.before)
+    against = "held-out flight is predicted no better with that";
+  if (!against.empty()) {
+    verdict.sentence = fmt::format("A gap is there that looks like {}, but {}.",
+                                   fmt::join(verdict.effects, " with "), against);
     verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(),
                                  verdict.effects.end());
     verdict.effects.clear();

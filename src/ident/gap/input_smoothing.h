@@ -14,8 +14,9 @@ namespace ident {
 /// with the other smoothing, and is not in the model's covariance yet.
 std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eigen::VectorXd& moved);
 
-/// A verdict by measured speeds. None is named where one of those named is among the `loose` ones: the rest
-/// was found beside it. What is unknown may all be noise.
-Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose);
+/// A verdict by measured speeds. None is named where one of those named is among the `loose` ones, as the
+/// rest was found beside it, nor where held-out flight is predicted no better with them: noise in an input
+/// makes a vehicle seem to respond less. What is unknown may all be noise.
+Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose, const GapClosed& gap);
 
 }  // namespace ident
