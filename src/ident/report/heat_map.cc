@@ -11,9 +11,9 @@
 namespace ident {
 namespace {
 
-constexpr double kBarRoom = 92;     // colour bar and its labels
+constexpr double kBarRoom = 92;    // colour bar and its labels
 constexpr double kCellText = 0.9;  // size of the text on a cell over that of labels
-constexpr double kStrong = 0.62;    // from here on the text on a cell takes the colour of the paper
+constexpr double kStrong = 0.62;   // from here on the text on a cell takes the colour of the paper
 
 /// Values to strengths: 0 is the paper, 1 the full hue.
 struct Shade {
