@@ -9,8 +9,8 @@ namespace ident {
 
 /// By row; both empty where the samples leave no noise to be seen.
 struct SpeedIntensities {
-  std::vector<double> q;  ///< from the row before to this one, in units of the noise's variance over s^3:
-                          ///< high where the motor is driven hard, low where it hovers
+  std::vector<double> q;      ///< from the row before to this one, in units of the noise's variance over s^3:
+                              ///< high where the motor is driven hard, low where it hovers
   std::vector<double> noise;  ///< variance of a sample, (rad/s)^2; NaN where there is none
 };
 
