@@ -18,13 +18,19 @@ struct Options {
   std::string output;
 };
 
-/// A slant angle is of kT, kQ and the arm, which later commands change.
+/// A slant angle is of kT, kQ and the arm, which later commands change; NaN for a vehicle that has none.
+double slant_of(const Vehicle& vehicle) {
+  try {
+    return estimate_slant(vehicle).parameters.front().value;
+  } catch (const Error&) {
+    return kNaN;
+  }
+}
+
 void warn_of_old_slant(std::vector<Result>& chapters, const Vehicle& vehicle) {
   for (Result& chapter : chapters) {
     if (chapter.command != "slant" || chapter.parameters.empty()) continue;
-    const double now = estimate_slant(vehicle).parameters.front().value,
-                 then = chapter.parameters.front().value;
-    if (std::abs(now - then) > 1e-6)
+    if (!(std::abs(slant_of(vehicle) - chapter.parameters.front().value) < 1e-6))
       chapter.warn("stale_result", "kT, kQ or the arm have changed since: run `ident slant` again.");
   }
 }
