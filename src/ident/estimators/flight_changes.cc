@@ -21,11 +21,16 @@ ChangeWindows change_windows(double lag, double interval) {
   return {rows(lag), rows(lag / 3), rows(lag / 2), rows(kLongestShift)};
 }
 
-Track changes(const Track& x, const ChangeWindows& w, long shift) {
-  Track out, sum(x.size() + 1, 0.0);
-  for (std::size_t i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
+RunningSum::RunningSum(const Track& x) : up_to(x.size() + 1, 0.0) {
+  std::partial_sum(x.begin(), x.end(), up_to.begin() + 1);
+}
+
+Track changes(const RunningSum& x, const ChangeWindows& w, long shift) {
+  Track out;
+  const Track& sum = x.up_to;
   const double n = static_cast<double>(w.width);
-  for (std::size_t i = w.margin; i + w.lag + w.width + w.margin <= x.size(); i += w.stride) {
+  out.reserve(x.rows() / w.stride + 1);
+  for (std::size_t i = w.margin; i + w.lag + w.width + w.margin <= x.rows(); i += w.stride) {
     const auto a = static_cast<std::size_t>(static_cast<long>(i) - shift), b = a + w.lag;
     out.push_back((sum[b + w.width] - sum[b] - sum[a + w.width] + sum[a]) / n);
   }

@@ -23,8 +23,16 @@ struct ChangeWindows {
 };
 ChangeWindows change_windows(double lag, double interval);
 
+/// Sums of a track up to every row, from which changes over any windows are read.
+struct RunningSum {
+  Track up_to;  ///< one value more than rows
+
+  RunningSum(const Track& x = {});
+  std::size_t rows() const { return up_to.size() - 1; }
+};
+
 /// Changes of the running mean; `shift` rows (at most the margin) let the track lead.
-Track changes(const Track& x, const ChangeWindows& windows, long shift = 0);
+Track changes(const RunningSum& x, const ChangeWindows& windows, long shift = 0);
 
 /// The running integral of y over an arc's time.
 Track integral(const std::vector<double>& t, const Track& y);

@@ -86,7 +86,8 @@ class Fitting {
   /// From where the fit of an excerpt ended; false where that is far from anything here.
   bool go_on_from(const Fitting& excerpt) {
     u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
-    order_ = excerpt.order_;
+    // The end has to be of order 4: what is found here by order 2 would have to be found once more.
+    order_ = options_.exact ? 4 : excerpt.order_;
     restart(excerpt.smoother_->noise(), 1);
     if (!(square_of(*smoother_) < kFar)) {
       u_.setZero(), axes_chosen_ = false, steps_ = 0;
@@ -100,7 +101,9 @@ class Fitting {
   /// Noise and unknowns in turn. Chunks may change in the first two rounds.
   void find_noise(const std::function<void(double)>& tell) {
     for (int round = 0; round < options_.noise_rounds; ++round) {
-      smoother_->linearize(u_, true);
+      // Noise to begin with is so far off that what states take of the residuals does not matter.
+      const bool first_look = round == 0 && !gone_on_ && smoother_->stands_at(u_);
+      if (!first_look) smoother_->linearize(u_, true);
       smoother_->set_gentle(false);
       smoother_->accept();
       if (options_.robust) smoother_->set_huber(kHuber);
@@ -121,8 +124,9 @@ class Fitting {
       }
       const NewtonStep step = newton_step(*smoother_, u_);
       smoother_->accept();
-      const bool done = !turned && (change < (options_.rough_noise ? kRoughly : kKnown) ||
-                                    (round >= 5 && change < kNearly));
+      const bool done =
+          !turned && !first_look &&
+          (change < (options_.rough_noise ? kRoughly : kKnown) || (round >= 5 && change < kNearly));
       if (done && !(step.fall < kNear * theta_.size())) break;
       if ((done || step.fall < kNear) && theta_.possible(u_ + step.du)) {
         u_ += step.du;
@@ -228,7 +232,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         Fitting first(excerpt, theta, options);
         first.begin();
         first.find_noise(tell(0.1, 0.4));
-        first.order_shows(record.duration / excerpt.duration);
+        if (!options.exact) first.order_shows(record.duration / excerpt.duration);
         begun = fitting.go_on_from(first);
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }

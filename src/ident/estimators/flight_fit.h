@@ -20,7 +20,7 @@ struct FlightFitOptions {
   bool fine_gusts = true;  ///< chunks so short that no gust within them passes for information on the vehicle
   bool choose_axes = true;     ///< whether gusts keep their direction in the world or turn with the vehicle
   double block_seconds = 2.0;  ///< of the sandwich covariance
-  double tolerance = 1e-3;     ///< fall of the cost (twice the log likelihood) that is not worth a step
+  double tolerance = 0.01;     ///< fall of the cost (twice the log likelihood) that is worth no evaluation
   double tolerance_of_misfit = 0.0;  ///< the same as a share of the cost beyond that of noise alone
   bool exact = true;  ///< ends with steps of order 4, and slopes as precise as shows: see finish_fit
   int order = 4;      ///< of the integrator's steps until then; 2, at half the cost, where that does not show
@@ -37,7 +37,7 @@ struct FlightFit {
   double cost = 0.0;
   NoiseModel noise;
   double chunk_seconds = 0.0;
-  int steps = 0, evaluations = 0;
+  int steps = 0;
   bool converged = false;
   std::vector<ScoreBlock> blocks;            ///< what stretches of `block_seconds` say
   std::shared_ptr<FlightSmoother> smoother;  ///< at the optimum; refers to the record and theta of the call
@@ -46,13 +46,14 @@ struct FlightFit {
 /// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
-/// Fall of the cost that a step has to promise: more than the tolerance, than a share of what the model
-/// misses altogether, and than what matters where digits do not.
+/// Fall of the cost that a step has to promise to be looked at: more than the tolerance, and than a share of
+/// what the model misses altogether.
 double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options);
 
-/// Brings a fit to within `options.tolerance` of its minimum, and finds its information and covariance there.
-/// Steps are of order 4 if it is to be exact, and slopes then in double precision where the rounding of
-/// single precision would pass for information. For a fit that was made with a larger tolerance.
+/// Brings a fit to where less than `options.tolerance` of a fall is left, finds its information and
+/// covariance there, and takes what is left by one more step of Newton's, which is not evaluated. Steps are
+/// of order 4 if it is to be exact, and slopes then in double precision where the rounding of single
+/// precision would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 
 /// The shared unknowns as the first `training_share` of every arc would have them: one Newton step from the

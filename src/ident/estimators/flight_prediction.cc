@@ -83,14 +83,15 @@ PredictionSummary summarise(const std::vector<PredictionWindow>& windows) {
   out.windows = windows.size();
   if (windows.empty()) return out;
   double e = 0, f = 0;
-  for (const PredictionWindow& w : windows) e += w.error2(), f += w.floor2();
+  std::vector<double> errors;
+  for (const PredictionWindow& w : windows) e += errors.emplace_back(w.error2()), f += w.floor2();
   out.error = std::sqrt(e / static_cast<double>(windows.size()));
   out.floor = std::sqrt(f / static_cast<double>(windows.size()));
   std::mt19937_64 random(20);
   std::vector<double> draws;
   for (int b = 0; b < 400; ++b) {
     double sum = 0;
-    for (std::size_t i = 0; i < windows.size(); ++i) sum += windows[random() % windows.size()].error2();
+    for (std::size_t i = 0; i < windows.size(); ++i) sum += errors[random() % errors.size()];
     draws.push_back(std::sqrt(sum / static_cast<double>(windows.size())));
   }
   std::ranges::sort(draws);
@@ -103,11 +104,14 @@ GapClosed gap_closed(const std::vector<PredictionWindow>& before,
   GapClosed out;
   const std::size_t n = std::min(before.size(), after.size());
   if (n == 0) return out;
+  std::vector<std::array<double, 3>> squares;
+  for (std::size_t i = 0; i < n; ++i)
+    squares.push_back({before[i].error2(), after[i].error2(), after[i].floor2()});
   const auto closed = [&](auto&& pick) {
     double b = 0, a = 0, f = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t k = pick(i);
-      b += before[k].error2(), a += after[k].error2(), f += after[k].floor2();
+      const auto& [was, is, least] = squares[pick(i)];
+      b += was, a += is, f += least;
     }
     const double k = static_cast<double>(n);
     out.before = std::sqrt(b / k), out.after = std::sqrt(a / k), out.floor = std::sqrt(f / k);

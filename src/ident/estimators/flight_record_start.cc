@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/parallel.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -100,11 +101,13 @@ std::vector<double> interpolated(const std::vector<double>& t, const std::vector
 }
 
 void set_noise(FlightRecord& record) {
-  for (int c = 0; c < kChannels; ++c) {
-    const bool turn = c >= kAttitude && c < kAttitude + 3;
-    const double s = turn ? attitude_noise(record, c - kAttitude) : noise_by_differences(record, c);
-    record.sigma[static_cast<std::size_t>(c)] = std::isfinite(s) ? std::max(s, 1e-9) : 1.0;
-  }
+  in_parallel(kChannels, [&](std::size_t c) {
+    const int channel = static_cast<int>(c);
+    const bool turn = channel >= kAttitude && channel < kAttitude + 3;
+    const double s =
+        turn ? attitude_noise(record, channel - kAttitude) : noise_by_differences(record, channel);
+    record.sigma[c] = std::isfinite(s) ? std::max(s, 1e-9) : 1.0;
+  });
   // One level for the axes of a sensor: a quiet axis must not be trusted beyond its sensor.
   for (const int group : {int{kGyro}, int{kForce}, int{kAttitude}, int{kVelocity}, int{kPosition}}) {
     const auto g = static_cast<std::size_t>(group);

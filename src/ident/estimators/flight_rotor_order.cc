@@ -68,19 +68,24 @@ std::vector<Track> rotor_speeds(const FlightArc& arc, const Vehicle& vehicle, st
 
 /// What is compared of an arc.
 struct Streams {
-  Track3 rates;
-  std::vector<Track> thrust, spin;  ///< integral of Omega^2, Omega of each column
+  std::array<RunningSum, 3> rates;
+  std::vector<RunningSum> thrust, spin;  ///< integral of Omega^2, Omega of each column
+  std::vector<double> mean_square;       ///< of Omega of each column
 };
 
 Streams streams_of(const FlightArc& arc, const std::vector<Track>& speeds) {
   Streams out;
-  for (std::size_t i = 0; i < arc.rows(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      out.rates[k].push_back(arc.start[i].body.w_B[static_cast<Eigen::Index>(k)]);
+  Track rate(arc.rows());
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < arc.rows(); ++i)
+      rate[i] = arc.start[i].body.w_B[static_cast<Eigen::Index>(k)];
+    out.rates[k] = rate;
+  }
   for (const Track& speed : speeds) {
     Track square = speed;
     for (double& v : square) v *= v;
-    out.thrust.push_back(integral(arc.t, square)), out.spin.push_back(speed);
+    out.thrust.emplace_back(integral(arc.t, square)), out.spin.emplace_back(speed);
+    out.mean_square.push_back(std::pow(root_mean_square(speed), 2));
   }
   return out;
 }
@@ -93,7 +98,7 @@ Windows windows_at(const std::vector<Streams>& arcs, double interval, double lag
   Track3 rates;
   out.thrust.resize(columns), out.spin.resize(columns);
   for (const Streams& arc : arcs) {
-    const Track3& w = arc.rates;
+    const auto& w = arc.rates;
     append(rates, {changes(w[0], windows), changes(w[1], windows), changes(w[2], windows)});
     for (std::size_t n = 0; n < columns; ++n) {
       const Track thrust = changes(arc.thrust[n], windows, rows), spin = changes(arc.spin[n], windows, rows);
@@ -133,7 +138,7 @@ double thrust_variation(const Windows& windows, const std::vector<Streams>& arcs
   for (const Track& one : windows.thrust)
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i];
   for (const Streams& arc : arcs)
-    for (const Track& rotor : arc.spin) mean_square.push_back(std::pow(root_mean_square(rotor), 2));
+    mean_square.insert(mean_square.end(), arc.mean_square.begin(), arc.mean_square.end());
   return mad_scale(sum) / (lag * static_cast<double>(windows.thrust.size()) * mean(mean_square));
 }
 

@@ -40,7 +40,9 @@ struct Agreement {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();  ///< of seen on told
 };
 
-Track3 changes_of(const Track3& x, const ChangeWindows& windows, long shift) {
+using Sums3 = std::array<RunningSum, 3>;
+
+Track3 changes_of(const Sums3& x, const ChangeWindows& windows, long shift) {
   return {changes(x[0], windows, shift), changes(x[1], windows, shift), changes(x[2], windows, shift)};
 }
 
@@ -48,20 +50,20 @@ Agreement agreement(const FlightRecord& record, double lag, const MakeStreams& m
                     const ReadChanges& read = {}) {
   const ChangeWindows windows = change_windows(lag, record.interval);
   Track3 seen;
-  std::vector<Track3> streams;
+  std::vector<Sums3> streams;
   for (const FlightArc& arc : record.arcs) {
     if (arc.rows() < 2) continue;
-    Streams both = make(arc);
-    Track3 one = changes_of(both.seen, windows, 0);
+    const Streams both = make(arc);
+    Track3 one = changes_of({both.seen[0], both.seen[1], both.seen[2]}, windows, 0);
     if (read) read(arc, windows, one);
-    append(seen, one), streams.push_back(std::move(both.told));
+    append(seen, one), streams.push_back({both.told[0], both.told[1], both.told[2]});
   }
   if (seen[0].size() < kFewWindows) return {};
   std::array<Agreement, 5> at_shift;
   in_parallel(at_shift.size(), [&](std::size_t s) {
     const long shift = (static_cast<long>(s) - 2) * static_cast<long>(windows.margin) / 2;
     Track3 told;
-    for (const Track3& one : streams) append(told, changes_of(one, windows, shift));
+    for (const Sums3& one : streams) append(told, changes_of(one, windows, shift));
     const Eigen::Matrix3d c = at_shift[s].c = correlations(seen, told);
     for (std::size_t k = 0; k < 3; ++k) {
       const double scale = mad_scale(told[k]);

@@ -28,6 +28,9 @@ double sensor_delay_of(const std::vector<double>& p, double interval) {
 // motor, say, leaves so little of its state at the start of an arc that the first steps there are wild.
 constexpr std::array kShares = {0.1, 0.0};
 
+// Chains of more chunks are eliminated from both ends.
+constexpr std::size_t kLongChain = 40;
+
 bool flies(const ChunkResult& result) {
   if (!std::isfinite(result.cost) || !result.x_end.body.w_B.allFinite()) return false;
   return std::ranges::all_of(result.E, [](double e) { return std::isfinite(e); }) &&
@@ -35,6 +38,11 @@ bool flies(const ChunkResult& result) {
 }
 
 }  // namespace
+
+FlightSmoother::Chain FlightSmoother::chain_of(std::size_t begin, std::size_t end) {
+  const bool is_long = end - begin > kLongChain;
+  return {begin, is_long ? begin + (end - begin) / 2 : end - 1, end};
+}
 
 FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, NoiseModel noise,
                                double chunk_seconds, int threads)
@@ -45,7 +53,7 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
       threads_(threads) {
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
-    arc_begin_.push_back(places_.size());
+    const std::size_t first = places_.size();
     unseen_.push_back(unseen_in(arc));
     std::size_t begin = 0;
     while (begin + 1 < arc.rows()) {
@@ -56,8 +64,8 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
       states_.push_back(arc.start[begin]);
       begin = end;
     }
+    if (places_.size() > first) chains_.push_back(chain_of(first, places_.size()));
   }
-  arc_begin_.push_back(places_.size());
   results_.resize(places_.size());
   set_axes();
   u_ = trial_u_ = VectorXd::Zero(theta.size());
@@ -87,6 +95,8 @@ void FlightSmoother::set_axes() {
 
 void FlightSmoother::unlink() {
   for (ChunkPlace& place : places_) place.linked = false;
+  chains_.clear();
+  for (std::size_t k = 0; k < places_.size(); ++k) chains_.push_back(chain_of(k, k + 1));
   eliminated_ = false;
 }
 
@@ -198,14 +208,8 @@ void FlightSmoother::predict(const VectorXd& u) {
     trial_ = states_;
     return;
   }
-  const VectorXd du = u - u_;
-  steps_.resize(places_.size());
-  for (std::size_t k = places_.size(); k-- > 0;) {
-    steps_[k] = -(accepted().f[k] + accepted().B[k].leftCols(du.size()) * du);
-    if (places_[k].linked)
-      steps_[k].noalias() -= accepted().Gt[k].leftCols(steps_[k].size()).transpose() * steps_[k + 1];
-    trial_[k] = moved(states_[k], steps_[k]);
-  }
+  steps_ = state_steps(accepted(), u - u_);
+  for (std::size_t k = 0; k < places_.size(); ++k) trial_[k] = moved(states_[k], steps_[k]);
 }
 
 // The same with shorter steps of those states from which nothing flies.
@@ -255,11 +259,12 @@ void FlightSmoother::settle(const VectorXd& u, int rounds, double enough) {
 std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
   const int n = record_->layout.size;
   std::vector<End> ends;
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (places_[k].linked) continue;
-    // Not linked further on: D holds all that is known of this state from the past.
-    const MatrixXd E = chunk::E(results_[k], n).leftCols(n);
-    ends.push_back({results_[k].x_end, E * past_covariance(accepted(), k).leftCols(n) * E.transpose()});
+  for (const Chain& chain : chains_) {
+    const std::size_t last = chain.end - 1;
+    if (chain.meet != last) posterior_covariances(accepted());
+    const MatrixXd P = chain.meet == last ? own_covariance(accepted(), last) : accepted().P[last];
+    const MatrixXd E = chunk::E(results_[last], n).leftCols(n);
+    ends.push_back({results_[last].x_end, E * P.leftCols(n) * E.transpose()});
   }
   return ends;
 }

@@ -1,5 +1,5 @@
-// A chain of chunks over all arcs: evaluates them on all cores, links them, and eliminates their states in
-// time order.
+// Chains of chunks, one for each arc: evaluates them on all cores, links them, and eliminates their states in
+// time order, of long chains from both ends.
 //
 //   cost = sum_chunks rho(r_k(x_k, theta)^2) + sum_links d_k' W_k d_k ,   d_k = end(x_k, theta) - x_(k+1)
 //
@@ -12,6 +12,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "ident/estimators/flight_chunk_maps.h"
@@ -148,16 +150,23 @@ class FlightSmoother {
   std::vector<Eigen::VectorXd> defects() const;
 
  private:
-  // x_k moves by -(f_k + B_k du) - G_k dx_(k+1). L L' is the information on x_k from the arc before the next
-  // chunk. Once `smoothed`, P is its covariance from all of the arc, `cross` that of x_(k+1) and x_k. Shared
-  // unknowns are held in all three. Rows are padded but for L; Gt is G transposed.
+  // Linked chunks, eliminated from both ends to where they meet: the last one if they are few.
+  struct Chain {
+    std::size_t begin = 0, meet = 0, end = 0;
+  };
+  static Chain chain_of(std::size_t begin, std::size_t end);
+
+  // x_k moves by -(f_k + B_k du) - G_k dx_next, with the chunk next to it towards where the ends meet. L L'
+  // is the information on x_k from its own end of the chain. Once `smoothed`, P is its covariance from all of
+  // the chain, `cross` that of x_(k+1) and x_k. Shared unknowns are held in all three. Rows are padded but
+  // for L; Gt is G transposed.
   struct Elimination {
     std::vector<chunk::RowMatrix> Gt, B, L, P, cross;
     std::vector<Eigen::VectorXd> f;
     bool smoothed = false;
   };
 
-  struct ArcElimination;
+  struct Sweep;
 
   ChunkTask task(std::size_t k, const Eigen::VectorXd& u, const std::vector<double>& p,
                  const std::vector<std::vector<Seed>>& seeds) const;
@@ -177,16 +186,19 @@ class FlightSmoother {
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
   void link_slope(std::size_t k, chunk::RowMatrix& E) const;
-  void eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum, const Eigen::VectorXd* held);
   static void damp_undetermined(chunk::RowMatrix& D, int n);
-  void add_start(std::size_t k, ArcElimination& arc) const;
-  void add_link(std::size_t k, ArcElimination& arc, const Eigen::VectorXd* held) const;
+  void add_start(std::size_t k, Sweep& at) const;
+  void add_rows(std::size_t k, Sweep& at, const Eigen::VectorXd* held) const;
+  void add_link(std::size_t k, Sweep& at, bool forward, const Eigen::VectorXd* held) const;
+  void eliminate_chunk(std::size_t k, Sweep& at, bool linked);
+  std::unique_ptr<Sweep> sweep(const Chain& chain, bool forward, const Eigen::VectorXd* held);
+  void outward(const std::function<void(std::size_t, std::optional<std::size_t>)>& visit) const;
   Eigen::VectorXd shared_optimum() const;
-  std::vector<Eigen::VectorXd> state_steps(const Eigen::VectorXd& du) const;
+  std::vector<Eigen::VectorXd> state_steps(const Elimination& el, const Eigen::VectorXd& du) const;
   std::vector<chunk::RowMatrix> state_slopes() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void set_axes();
-  chunk::RowMatrix past_covariance(const Elimination& el, std::size_t k) const;
+  chunk::RowMatrix own_covariance(const Elimination& el, std::size_t k) const;
   void posterior_covariances(Elimination& el) const;
   Elimination& accepted() { return eliminations_[accepted_at_]; }
   const Elimination& accepted() const { return eliminations_[accepted_at_]; }
@@ -203,7 +215,7 @@ class FlightSmoother {
   bool stands_ = false, exact_ = false, gentle_ = false;
   bool eliminated_ = false;  // the last linearisation, under the present noise, shared unknowns free
   std::vector<ChunkPlace> places_;
-  std::vector<std::size_t> arc_begin_;               // first chunk of each arc, and the end
+  std::vector<Chain> chains_;
   std::vector<Eigen::VectorXd> unseen_;              // unseen_in() each arc
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
   std::vector<Eigen::VectorXd> steps_;               // from the one to the other

@@ -1,4 +1,4 @@
-// The elimination of all states in time order.
+// The elimination of all states, of a long chain from both ends at once.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// One arc on its way through elimination. Matrices are kept row by row, [D | B f] over states and shared
-// unknowns, the second part from a column that is a multiple of kRowPad; the last column is the gradient.
-struct FlightSmoother::ArcElimination {
+// One end of a chain on its way through elimination. Matrices are kept row by row, [D | B f] over states and
+// shared unknowns, the second part from a column that is a multiple of kRowPad; the last column is the
+// gradient.
+struct FlightSmoother::Sweep {
   using Matrix = chunk::RowMatrix;
 
   /// `slopes`: shared unknowns that links have slopes over, `unknowns` or more.
-  ArcElimination(int states, int unknowns, int slopes)
+  Sweep(int states, int unknowns, int slopes)
       : n(states),
         m(unknowns),
         from(padded(n)),
@@ -44,7 +45,7 @@ struct FlightSmoother::ArcElimination {
   int n, m, from, shared;
   Matrix own, next;  // [D | B f] of this chunk, and what it passes to the next one
   Matrix E, WE;      // slope of the link, and weighted, with the weighted defect
-  Matrix U;          // over the next state
+  Matrix U;          // over the state that is next in the sweep
   Matrix solved;     // [U | B f], then L^-1 of it, then D^-1 of it
   Matrix sum;        // [S g]
   double cost = 0.0, log_det = 0.0;
@@ -68,110 +69,137 @@ void FlightSmoother::damp_undetermined(chunk::RowMatrix& D, int n) {
 }
 
 // What is known of the accelerations from outside where an arc begins.
-void FlightSmoother::add_start(std::size_t k, ArcElimination& arc) const {
+void FlightSmoother::add_start(std::size_t k, Sweep& at) const {
   const VectorXd info = start_information(k), x = outside(k);
   const Index own = theta_->size(), further = shared() - own;
-  arc.D().diagonal() += info;
-  arc.f() += info.cwiseProduct(x);
-  arc.cost += x.dot(info.cwiseProduct(x));
+  at.D().diagonal() += info;
+  at.f() += info.cwiseProduct(x);
+  at.cost += x.dot(info.cwiseProduct(x));
   for (const double one : info)
-    if (one > 0) arc.log_det -= std::log(one);
+    if (one > 0) at.log_det -= std::log(one);
   if (further == 0) return;
   const MatrixXd P = profile(k), WP = info.asDiagonal() * P;
-  arc.B().rightCols(further) -= WP;
-  arc.S().bottomRightCorner(further, further) += P.transpose() * WP;
-  arc.g().tail(further) -= WP.transpose() * x;
+  at.B().rightCols(further) -= WP;
+  at.S().bottomRightCorner(further, further) += P.transpose() * WP;
+  at.g().tail(further) -= WP.transpose() * x;
 }
 
-// Adds the link of chunk k to its own block, and what it means for the next one to that.
-void FlightSmoother::add_link(std::size_t k, ArcElimination& arc, const VectorXd* held) const {
-  const int n = arc.n, m = arc.m;
-  link_slope(k, arc.E);
+// Begins chunk k: what the sweep passed to it, and what its rows say.
+void FlightSmoother::add_rows(std::size_t k, Sweep& at, const VectorXd* held) const {
+  const int n = at.n, own = theta_->size();
+  const ChunkResult& r = results_[k];
+  const chunk::ConstRowMap A = chunk::A(r);
+  std::swap(at.own, at.next);
+  if (k == 0 || !places_[k - 1].linked) add_start(k, at);
+  at.D() += A.topLeftCorner(n, n);
+  at.f() += chunk::g(r).head(n);
+  if (held) {
+    at.f().noalias() += A.topRightCorner(n, own) * *held;
+  } else {
+    at.B().leftCols(own) += A.topRightCorner(n, own);
+    at.S().topLeftCorner(own, own) += A.bottomRightCorner(own, own);
+    at.g().head(own) += chunk::g(r).tail(own);
+  }
+  at.cost += r.cost;
+}
+
+// Adds the link of chunk k to the next one to the block of the one that the sweep is at, and what it means
+// for the other one to that.
+void FlightSmoother::add_link(std::size_t k, Sweep& at, bool forward, const VectorXd* held) const {
+  const int n = at.n, m = at.m, from = at.from;
+  link_slope(k, at.E);
   const VectorXd W = link_weight(k);
   VectorXd d = defect(k);
-  if (held) d.noalias() += arc.E.middleCols(arc.from, held->size()) * *held;
-  arc.WE.leftCols(n) = W.asDiagonal() * arc.E.leftCols(n);
-  arc.WE.middleCols(arc.from, m) = W.asDiagonal() * arc.E.middleCols(arc.from, m);
-  arc.WE.col(arc.from + m) = W.cwiseProduct(d);
-  const auto E = [&](int column) { return rows_in(arc.E, column); };
-  const auto WE = [&](int column) { return rows_in(arc.WE, column); };
+  if (held) d.noalias() += at.E.middleCols(from, held->size()) * *held;
+  at.WE.leftCols(n) = W.asDiagonal() * at.E.leftCols(n);
+  at.WE.middleCols(from, m) = W.asDiagonal() * at.E.middleCols(from, m);
+  at.WE.col(from + m) = W.cwiseProduct(d);
+  const auto E = [&](int column) { return rows_in(at.E, column); };
+  const auto WE = [&](int column) { return rows_in(at.WE, column); };
   const DenseRows& dense = dense_rows();
-  dense.add_products(rows_of(arc.own), E(0), n, WE(0), arc.from + arc.shared, n, 1.0);
-  dense.add_products(rows_of(arc.sum), E(arc.from), m, WE(arc.from), arc.shared, n, 1.0);
-  arc.cost += d.dot(W.cwiseProduct(d));
-  arc.log_det -= W.array().log().sum();
-  arc.U.leftCols(n) = -arc.WE.leftCols(n).transpose();
-  arc.next = -arc.WE;
-  arc.next.leftCols(n) = W.asDiagonal();
+  at.next.setZero();
+  Sweep::Matrix &before = forward ? at.own : at.next, &after = forward ? at.next : at.own;
+  dense.add_products(rows_of(before), E(0), n, WE(0), from + at.shared, n, 1.0);
+  after.leftCols(n).diagonal() += W;
+  after.middleCols(from, m + 1) -= at.WE.middleCols(from, m + 1);
+  dense.add_products(rows_of(at.sum), E(from), m, WE(from), at.shared, n, 1.0);
+  at.cost += d.dot(W.cwiseProduct(d));
+  at.log_det -= W.array().log().sum();
+  if (forward)
+    at.U.leftCols(n) = -at.WE.leftCols(n).transpose();
+  else
+    at.U.leftCols(n) = -at.WE.leftCols(n);
 }
 
-void FlightSmoother::eliminate_arc(std::size_t begin, std::size_t end, ReducedSystem& sum,
-                                   const VectorXd* held) {
-  const int n = record_->layout.size, own = theta_->size(), all = static_cast<int>(shared());
-  const int m = held ? 0 : all;
+// Eliminates chunk k, which may be linked to the one that is next in the sweep.
+void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
+  const int n = at.n, m = at.m, from = at.from, right = from + at.shared;
   Elimination& el = last();
-  ArcElimination arc(n, m, all);
-  const int from = arc.from, right = from + arc.shared;
   const DenseRows& dense = dense_rows();
-  const auto solved = [&](int column) { return rows_in(arc.solved, column); };
-  for (std::size_t k = begin; k < end; ++k) {
-    const ChunkResult& r = results_[k];
-    const chunk::ConstRowMap A = chunk::A(r);
-    std::swap(arc.own, arc.next);
-    const bool first = k == begin || !places_[k - 1].linked;
-    if (first) {
-      arc.own.setZero();
-      add_start(k, arc);
-    }
-    arc.D() += A.topLeftCorner(n, n);
-    arc.f() += chunk::g(r).head(n);
-    if (held) {
-      arc.f().noalias() += A.topRightCorner(n, own) * *held;
-    } else {
-      arc.B().leftCols(own) += A.topRightCorner(n, own);
-      arc.S().topLeftCorner(own, own) += A.bottomRightCorner(own, own);
-      arc.g().head(own) += chunk::g(r).tail(own);
-    }
-    arc.cost += r.cost;
-    const bool linked = places_[k].linked;
-    if (linked)
-      add_link(k, arc, held);
-    else
-      arc.U.setZero();
-    Eigen::LLT<ArcElimination::Matrix> llt(arc.D());
-    if (llt.info() != Eigen::Success) {
-      damp_undetermined(arc.own, n);
-      llt.compute(arc.D());
-    }
-    const ArcElimination::Matrix& L = el.L[k] = llt.matrixLLT();
-    arc.log_det += 2 * L.diagonal().array().log().sum();
-    arc.solved.leftCols(from) = arc.U;
-    arc.solved.middleCols(from, arc.shared) = arc.own.rightCols(arc.shared);
-    dense.forward(rows_in(L), n, rows_of(arc.solved), right);
-    dense.add_products(rows_of(arc.sum), solved(from), m, solved(from), arc.shared, n, -1.0);
-    arc.cost -= arc.solved.col(from + m).squaredNorm();
-    if (linked) dense.add_products(rows_of(arc.next), solved(0), n, solved(0), right, n, -1.0);
-    dense.backward(rows_in(L), n, rows_of(arc.solved), right);
-    if (linked) {
-      el.Gt[k].setZero(n, from);
-      el.Gt[k].leftCols(n) = arc.solved.leftCols(n).transpose();
-    }
-    el.B[k] = arc.solved.middleCols(from, padded(m));
-    el.B[k].rightCols(padded(m) - m).setZero();
-    el.f[k] = arc.solved.col(from + m);
+  const auto solved = [&](int column) { return rows_in(at.solved, column); };
+  Eigen::LLT<Sweep::Matrix> llt(at.D());
+  if (llt.info() != Eigen::Success) {
+    damp_undetermined(at.own, n);
+    llt.compute(at.D());
   }
-  sum = {arc.cost, arc.g(), arc.S(), arc.log_det};
+  const Sweep::Matrix& L = el.L[k] = llt.matrixLLT();
+  at.log_det += 2 * L.diagonal().array().log().sum();
+  if (linked)
+    at.solved.leftCols(from) = at.U;
+  else
+    at.solved.leftCols(from).setZero();
+  at.solved.middleCols(from, at.shared) = at.own.rightCols(at.shared);
+  dense.forward(rows_in(L), n, rows_of(at.solved), right);
+  dense.add_products(rows_of(at.sum), solved(from), m, solved(from), at.shared, n, -1.0);
+  at.cost -= at.solved.col(from + m).squaredNorm();
+  if (linked) dense.add_products(rows_of(at.next), solved(0), n, solved(0), right, n, -1.0);
+  dense.backward(rows_in(L), n, rows_of(at.solved), right);
+  if (linked) {
+    el.Gt[k].setZero(n, from);
+    el.Gt[k].leftCols(n) = at.solved.leftCols(n).transpose();
+  }
+  el.B[k] = at.solved.middleCols(from, padded(m));
+  el.B[k].rightCols(padded(m) - m).setZero();
+  el.f[k] = at.solved.col(from + m);
+}
+
+// Eliminates the chunks of a chain on one side of where its ends meet; null where there is none.
+std::unique_ptr<FlightSmoother::Sweep> FlightSmoother::sweep(const Chain& chain, bool forward,
+                                                             const VectorXd* held) {
+  if ((forward ? chain.begin : chain.end - 1) == chain.meet) return nullptr;
+  const int all = static_cast<int>(shared());
+  auto at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : all, all);
+  for (std::size_t k = forward ? chain.begin : chain.end - 1; k != chain.meet; forward ? ++k : --k) {
+    add_rows(k, *at, held);
+    add_link(forward ? k : k - 1, *at, forward, held);
+    eliminate_chunk(k, *at, true);
+  }
+  return at;
 }
 
 void FlightSmoother::eliminate(const VectorXd* held) {
   eliminated_ = held == nullptr;
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
-  const std::size_t K = places_.size(), arcs = arc_begin_.size() - 1;
+  const std::size_t K = places_.size();
   el.Gt.resize(K), el.B.resize(K), el.f.resize(K), el.L.resize(K), el.P.resize(K), el.cross.resize(K);
   el.smoothed = false;
-  std::vector<ReducedSystem> parts(arcs);
-  in_parallel(arcs, [&](std::size_t a) { eliminate_arc(arc_begin_[a], arc_begin_[a + 1], parts[a], held); });
+  std::vector<std::array<std::unique_ptr<Sweep>, 2>> ends(chains_.size());
+  in_parallel(2 * chains_.size(),
+              [&](std::size_t i) { ends[i / 2][i % 2] = sweep(chains_[i / 2], i % 2 == 0, held); });
+  std::vector<ReducedSystem> parts(chains_.size());
+  in_parallel(chains_.size(), [&](std::size_t c) {
+    auto& [at, other] = ends[c];
+    if (!at) at = std::move(other);
+    const int all = static_cast<int>(shared());
+    if (!at) at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : all, all);
+    if (other) at->next += other->next, at->sum += other->sum;
+    if (other) at->cost += other->cost, at->log_det += other->log_det;
+    add_rows(chains_[c].meet, *at, held);
+    eliminate_chunk(chains_[c].meet, *at, false);
+    parts[c] = {at->cost, at->g(), at->S(), at->log_det};
+    ends[c] = {};
+  });
   if (held) return;
   reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared()), 0.0};
   for (const ReducedSystem& part : parts) {
@@ -181,8 +209,8 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
 }
 
-// Covariance of the state of chunk k, from the arc before the next one.
-chunk::RowMatrix FlightSmoother::past_covariance(const Elimination& el, std::size_t k) const {
+// Covariance of the state of chunk k, from what was eliminated before it.
+chunk::RowMatrix FlightSmoother::own_covariance(const Elimination& el, std::size_t k) const {
   const int n = record_->layout.size, columns = padded(n);
   const DenseRows& dense = dense_rows();
   chunk::RowMatrix P = chunk::RowMatrix::Identity(n, columns);
@@ -191,21 +219,34 @@ chunk::RowMatrix FlightSmoother::past_covariance(const Elimination& el, std::siz
   return P;
 }
 
-// Backward recursion for the posterior covariance of each state and of neighbours, shared unknowns held.
+// Calls `visit` for all chunks, the ends of each chain in the reverse order of their elimination, with the
+// one that was next in the sweep; where ends meet there is none.
+void FlightSmoother::outward(
+    const std::function<void(std::size_t, std::optional<std::size_t>)>& visit) const {
+  in_parallel(chains_.size(), [&](std::size_t c) { visit(chains_[c].meet, std::nullopt); });
+  in_parallel(2 * chains_.size(), [&](std::size_t i) {
+    const Chain& chain = chains_[i / 2];
+    if (i % 2 == 0)
+      for (std::size_t k = chain.meet; k-- > chain.begin;) visit(k, k + 1);
+    else
+      for (std::size_t k = chain.meet + 1; k < chain.end; ++k) visit(k, k - 1);
+  });
+}
+
+// Recursion for the posterior covariance of each state and of neighbours, shared unknowns held.
 void FlightSmoother::posterior_covariances(Elimination& el) const {
   if (el.smoothed) return;
   el.smoothed = true;
-  const int n = record_->layout.size;
+  const int n = record_->layout.size, columns = padded(n);
   const DenseRows& dense = dense_rows();
-  in_parallel(places_.size(), [&](std::size_t k) { el.P[k] = past_covariance(el, k); });
-  in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
-    for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
-      if (!places_[k].linked) continue;
-      el.cross[k].setZero(n, padded(n));
-      dense.add_products(rows_of(el.cross[k]), rows_in(el.P[k + 1]), n, rows_in(el.Gt[k]), padded(n), n,
-                         -1.0);
-      dense.add_products(rows_of(el.P[k]), rows_in(el.cross[k]), n, rows_in(el.Gt[k]), padded(n), n, -1.0);
-    }
+  outward([&](std::size_t k, std::optional<std::size_t> next) {
+    el.P[k] = own_covariance(el, k);
+    if (!next) return;
+    chunk::RowMatrix cross = chunk::RowMatrix::Zero(n, columns);  // of the next one and this
+    dense.add_products(rows_of(cross), rows_in(el.P[*next]), n, rows_in(el.Gt[k]), columns, n, -1.0);
+    dense.add_products(rows_of(el.P[k]), rows_in(cross), n, rows_in(el.Gt[k]), columns, n, -1.0);
+    if (*next < k) cross.leftCols(n).transposeInPlace();
+    el.cross[std::min(k, *next)] = std::move(cross);
   });
 }
 
@@ -223,15 +264,14 @@ VectorXd FlightSmoother::shared_optimum() const {
   return -(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(VectorXd(s.asDiagonal() * g)));
 }
 
-// Steps of the states for that of the shared unknowns: by the last elimination, which may have held it.
-std::vector<VectorXd> FlightSmoother::state_steps(const VectorXd& du) const {
-  const Elimination& el = last();
+// Steps of the states for that of the shared unknowns, by an elimination which may have held it.
+std::vector<VectorXd> FlightSmoother::state_steps(const Elimination& el, const VectorXd& du) const {
   std::vector<VectorXd> dx(places_.size());
-  for (std::size_t k = places_.size(); k-- > 0;) {
+  outward([&](std::size_t k, std::optional<std::size_t> next) {
     dx[k] = -el.f[k];
     if (el.B[k].cols() > 0) dx[k].noalias() -= el.B[k].leftCols(du.size()) * du;
-    if (places_[k].linked) dx[k].noalias() -= el.Gt[k].leftCols(dx[k].size()).transpose() * dx[k + 1];
-  }
+    if (next) dx[k].noalias() -= el.Gt[k].leftCols(dx[k].size()).transpose() * dx[*next];
+  });
   return dx;
 }
 
@@ -240,12 +280,10 @@ std::vector<chunk::RowMatrix> FlightSmoother::state_slopes() const {
   const int n = record_->layout.size, m = padded(static_cast<int>(shared()));
   const DenseRows& dense = dense_rows();
   std::vector<chunk::RowMatrix> dX(places_.size());
-  in_parallel(arc_begin_.size() - 1, [&](std::size_t a) {
-    for (std::size_t k = arc_begin_[a + 1]; k-- > arc_begin_[a];) {
-      dX[k] = -accepted().B[k];
-      if (places_[k].linked)
-        dense.add_products(rows_of(dX[k]), rows_in(accepted().Gt[k]), n, rows_in(dX[k + 1]), m, n, -1.0);
-    }
+  outward([&](std::size_t k, std::optional<std::size_t> next) {
+    dX[k] = -accepted().B[k];
+    if (next)
+      dense.add_products(rows_of(dX[k]), rows_in(accepted().Gt[k]), n, rows_in(dX[*next]), m, n, -1.0);
   });
   return dX;
 }

@@ -100,7 +100,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
     if (again) du = shared_optimum();
     Elimination& el = last();
     posterior_covariances(el);
-    const std::vector<VectorXd> dx = state_steps(du);
+    const std::vector<VectorXd> dx = state_steps(el, du);
     struct LogMoments {
       std::array<ProcessMoments, 3> turn, push;
     };

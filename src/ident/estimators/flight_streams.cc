@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/core/parallel.h"
 #include "ident/estimators/flight_motion.h"
 
 namespace ident {
@@ -138,27 +139,35 @@ StreamOffset offset_of(const std::vector<Sides>& arcs, double interval) {
   std::vector<ToldParts> shifts(static_cast<std::size_t>(2 * most + 1), ToldParts(axes_seen));
   SeenParts seen;
   std::size_t count = 0, before = 0;
-  for (const Sides& arc : arcs) count += changes(arc.seen[0], windows).size();
-  if (count < kFewest) return {};
+  std::vector<std::vector<Vector3d>> turned_of;
   for (const Sides& arc : arcs) {
-    std::vector<Vector3d> turned(changes(arc.seen[0], windows).size(), Vector3d::Zero());
+    std::vector<Vector3d>& turned = turned_of.emplace_back();
     for (std::size_t k = 0; k < axes_seen; ++k) {
       const Track axis = changes(arc.seen[k], windows);
+      turned.resize(axis.size(), Vector3d::Zero());
       for (std::size_t j = 0; j < axis.size(); ++j) turned[j][static_cast<Eigen::Index>(k)] = axis[j];
     }
+    count += turned.size();
+  }
+  if (count < kFewest) return {};
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    const Sides& arc = arcs[a];
+    const std::vector<Vector3d>& turned = turned_of[a];
     const auto part_of = [&](std::size_t j) { return (before + j) * kParts / count; };
     for (std::size_t j = 0; j < turned.size(); ++j) {
       Seen& part = seen[part_of(j)];
       part.n += 1, part.a += turned[j], part.aa += turned[j] * turned[j].transpose();
     }
-    for (std::size_t k = 0; k < axes_seen; ++k)
+    for (std::size_t k = 0; k < axes_seen; ++k) {
+      const RunningSum sums(arc.told[k]);
       for (long s = -most; s <= most; ++s) {
-        const Track told = changes(arc.told[k], windows, -s * step);
+        const Track told = changes(sums, windows, -s * step);
         for (std::size_t j = 0; j < turned.size(); ++j) {
           Told& part = shifts[static_cast<std::size_t>(s + most)][k][part_of(j)];
           part.b += told[j], part.bb += told[j] * told[j], part.ab += told[j] * turned[j];
         }
       }
+    }
     before += turned.size();
   }
   std::vector<bool> alike(axes_seen, false);
@@ -226,7 +235,11 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
     if (s.rates && s.attitude) turns.push_back({all(turn_of_attitude(arc)), all(turn_of_rates(arc))});
     if (s.force && s.velocity) forces.push_back({{sum_of_acceleration(arc, gravity)}, {sum_of_force(arc)}});
   }
-  return {offset_of(turns, record.interval), offset_of(forces, record.interval)};
+  StreamOffsets found;
+  in_parallel(2, [&](std::size_t which) {
+    (which == 0 ? found.rates : found.force) = offset_of(which == 0 ? turns : forces, record.interval);
+  });
+  return found;
 }
 
 std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,

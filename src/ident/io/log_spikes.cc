@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "ident/core/error.h"
+#include "ident/core/parallel.h"
 
 namespace ident {
 namespace {
@@ -25,11 +26,18 @@ constexpr double kOneGap = 3.0;  // times the usual step: samples further apart 
 constexpr std::size_t kFew = 50;
 constexpr double kNormal = 1.4826;  // standard deviation over the median of sizes
 
-double quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
+/// Quantiles at rising shares.
+template <std::size_t count>
+std::array<double, count> quantiles(std::vector<double> values, const std::array<double, count>& shares) {
+  std::array<double, count> out;
+  auto from = values.begin();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(shares[i] * static_cast<double>(values.size() - 1));
+    std::nth_element(from, at, values.end());
+    out[i] = *at, from = at;  // what follows is not smaller
+  }
+  return out;
 }
 
 // Rows whose value is a spike.
@@ -40,20 +48,22 @@ std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vect
   if (rows.size() < kFew) return {};
   std::vector<double> steps;
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(t[rows[k]] - t[rows[k - 1]]);
-  const double together = kOneGap * 4 * quantile(steps, 0.5);
+  const double together = kOneGap * 4 * quantiles<1>(std::move(steps), {0.5})[0];
   std::vector<double> off(rows.size(), 0.0);
   const auto at = [&](std::size_t k) { return values[rows[k]]; };
   for (std::size_t k = 2; k + 2 < rows.size(); ++k)
     if (t[rows[k + 2]] - t[rows[k - 2]] < together)
       off[k] = std::abs(at(k) - (4 * (at(k - 1) + at(k + 1)) - at(k - 2) - at(k + 2)) / 6);
-  const double usual = kNormal * quantile(off, 0.5);
+  const auto [middle, most] = quantiles<2>(off, {0.5, 0.95});
+  const double usual = kNormal * middle;
   if (!(usual > 0)) return {};  // steps of a coarse sensor
-  const double limit = std::max(kUsual * usual, kMost * quantile(off, 0.95));
+  const double limit = std::max(kUsual * usual, kMost * most);
   std::vector<std::size_t> spikes;
   for (std::size_t k = 2; k + 2 < rows.size(); ++k) {
+    if (!(off[k] > limit)) continue;
     const bool largest = *std::max_element(off.begin() + static_cast<std::ptrdiff_t>(k) - 2,
                                            off.begin() + static_cast<std::ptrdiff_t>(k) + 3) == off[k];
-    if (!largest || !(off[k] > limit)) continue;
+    if (!largest) continue;
     const std::array<double, 4> around{at(k - 2), at(k - 1), at(k + 1), at(k + 2)};
     const auto [low, high] = std::ranges::minmax(around);
     if (high - low < kAgree * std::abs(at(k) - 0.5 * (low + high))) spikes.push_back(rows[k]);
@@ -69,7 +79,7 @@ std::vector<std::size_t> impossible_in(const std::vector<double>& values) {
     if (std::isfinite(value)) sizes.push_back(std::abs(value));
   std::vector<std::size_t> out;
   if (sizes.size() < kFew) return out;
-  const double most = kImpossible * quantile(std::move(sizes), 1 - kAccident);
+  const double most = kImpossible * quantiles<1>(std::move(sizes), {1 - kAccident})[0];
   for (std::size_t i = 0; i < values.size() && most > 0; ++i)
     if (std::abs(values[i]) > most) out.push_back(i);
   return out;
@@ -79,9 +89,11 @@ void drop(FlightLog& log, Components sensor, const std::string& name,
           const std::function<std::vector<std::size_t>(const std::vector<double>&)>& wrong_rows) {
   std::size_t count = 0;
   double first = kNaN;
-  for (std::vector<double>& values : sensor)
-    for (const std::size_t i : wrong_rows(values)) {
-      values[i] = kNaN, ++count;
+  std::vector<std::vector<std::size_t>> wrong(sensor.size());
+  in_parallel(sensor.size(), [&](std::size_t k) { wrong[k] = wrong_rows(sensor[k]); });
+  for (std::size_t k = 0; k < sensor.size(); ++k)
+    for (const std::size_t i : wrong[k]) {
+      sensor[k][i] = kNaN, ++count;
       if (!(log.t[i] > first)) first = log.t[i];
     }
   if (count == 0) return;
