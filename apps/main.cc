@@ -25,6 +25,7 @@ Registered add(CLI::App& program, const std::string& name, const std::string& su
   auto shared = std::make_shared<SharedOptions>();
   const Action action = declare(*cli);
   cli->add_flag("--json", shared->json, "print the result as JSON on standard output, nothing else");
+  if (cli->get_option_no_throw("--report") != nullptr) return {cli, action, shared};  // its own
   cli->add_option("--report", shared->report, "write a report: .html, .md or .json")
       ->type_name("FILE")
       ->each([](const std::string& path) { report_form(path); });  // refused before the work, not after

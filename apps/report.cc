@@ -63,7 +63,7 @@ Result report_campaign(const Options& options, Context& context) {
 Action report_command(CLI::App& cli) {
   auto options = std::make_shared<Options>();
   CLI::Option* output =
-      cli.add_option("--output", options->output,
+      cli.add_option("--output,--report", options->output,
                      "where to write: .html, .md or .json; report.html and report.md without it")
           ->type_name("FILE");
   cli.add_option("--vehicle", options->vehicle, "only list the parameters of a vehicle or parameter file")

@@ -62,6 +62,14 @@ TEST(SampleCampaign, BenchCommandsFindTheTruthAndTheReportTellsAllOfThem) {
   const std::string report = content(folder / "report.html");
   for (const char* name : {"kT", "kQ", "km", "omega_m", "zeta_m", "dead_time", "Jxx", "Jyy", "Jzz"})
     EXPECT_NE(report.find(name), std::string::npos) << name;
+  const auto says_old = [&] {
+    return run_ident({"report"}, folder.string()).out.find("run `ident slant` again") != std::string::npos;
+  };
+  EXPECT_FALSE(says_old());
+  Vehicle later = found;
+  later.parameters["kQ"].value *= 1.01;  // as a flight may say
+  write_vehicle((folder / "parameters.yaml").string(), later);
+  EXPECT_TRUE(says_old());
 }
 
 TEST(SampleCampaign, RefinementKeepsTheTruthWithinThreeStandardDeviations) {

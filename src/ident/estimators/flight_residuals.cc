@@ -141,7 +141,8 @@ Section flight_residuals(const FlightRecord& record, const FlightFit& fit) {
                   .text =
                       "Measured minus fitted, in units of the noise found. The fit may push the vehicle "
                       "from outside, so what the model lacks at low frequency is not here but among the "
-                      "accelerations from outside. A bound holds 95 % of what white noise would give.",
+                      "accelerations from outside. A bound holds 95 % of what white noise would give." +
+                      std::string(record.logs > 1 ? " Pictures are of the first log, the table of all." : ""),
                   .tables = {channel_table(all)}};
   for (const Sensor& sensor : kSensors) {
     std::vector<const ChannelResidual*> channels;

@@ -105,6 +105,7 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   section.title = "Simulated against measured";
   section.text =
       fmt::format("Open-loop simulations of {:.2g} s each, started at states fitted to the log.", horizon);
+  if (record.logs > 1) section.text += " Pictures are of the first log, the table of all.";
   Table table{"", {"channel", "RMS error", "unit", "fit %", "Theil U"}, {}};
   nlohmann::ordered_json channels;
   for (std::size_t c = 0; c < kChannels; ++c) {

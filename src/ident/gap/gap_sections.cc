@@ -190,13 +190,20 @@ Section where_section(const Json& found, const ResidualWrench& before, const Res
   return section;
 }
 
+std::string limit_unit(const std::string& name) {
+  return name == "ground_effect.radius" ? "m" : parameter_unit(name);  // the parameter is its square
+}
+
 Section tried_section(const Json& found) {
   Table table{.title = "Every cause, and the size that would have been seen",
               .columns = {"cause", "probability", "evidence", "would have been seen"}};
   for (const Json& c : found["candidates"]) {
     std::string limits;
-    for (const auto& [name, limit] : c["detection_limit"].items())
+    for (const auto& [name, limit] : c["detection_limit"].items()) {
+      const std::string unit = limit_unit(name);
       limits += (limits.empty() ? "" : ", ") + name.substr(name.find('.') + 1) + " " + number_text(limit, 2);
+      if (unit != "-") limits += " " + unit;
+    }
     table.rows.push_back({c["effect"], fmt::format("{:.3f}", number(c["probability"])),
                           c.contains("evidence") ? fmt::format("{:.1f}", number(c["evidence"])) : "–",
                           limits});

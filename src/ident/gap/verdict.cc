@@ -77,6 +77,13 @@ std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
 
 // Where no cause was found: what still says that something is there. What strikes a vehicle does not only
 // turn it about its yaw axis: that is what gusts do by a drag that the rotors do not share alike.
+// To what the model explains the logs.
+std::string remaining_noise(const GapClosed& gap) {
+  constexpr double kAtTheNoise = 1.1;
+  const double ratio = gap.after / gap.floor;
+  return ratio > kAtTheNoise ? fmt::format("{:.1f} times their noise", ratio) : "the noise";
+}
+
 Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector<SpectralLine>& lines,
                      const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
@@ -110,10 +117,12 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
     out = {.status = "none",
            .sentence =
                "No cause stands out: with its constants refitted, within what was stated of them, the "
-               "model explains these logs down to the noise."};
+               "model explains these logs down to " +
+               remaining_noise(gap) + "."};
   else
     out = {.status = "none",
-           .sentence = "The model explains these logs down to the noise; no cause stands out."};
+           .sentence =
+               "The model explains these logs down to " + remaining_noise(gap) + "; no cause stands out."};
   if (out.status == "none" && !jumps.empty())
     out.sentence +=
         fmt::format(" Moments about the yaw axis jump, most at {} s of log {}, as gusts make them.",

@@ -90,8 +90,14 @@
   const width = { measured: 1, predicted: 2, line: 1.5 };
   function seriesOf(plot) {
     const all = [{ label: plot.x }], bands = [];
+    // What was measured lies wide and pale below what should lie on it, several long lines let each other
+    // through: as in the static pictures.
+    const under = plot.series.some((s) => s.style === "predicted");
+    const dense = plot.series.filter((s) => s.style === "line" && vector(s.y).length > 400).length > 1;
     plot.series.forEach((s) => {
-      const stroke = s.style === "measured" ? colour("--measured") : colour(`--c${s.colour}`);
+      const below = under && s.style === "measured", through = dense && s.style === "line";
+      const stroke = (s.style === "measured" ? colour("--measured") : colour(`--c${s.colour}`)) +
+        (below ? "66" : through ? "a6" : "");
       if (s.style === "band") {
         const edge = { class: "edge", stroke: `${stroke}66`, width: 0.5, points: { show: false } };
         all.push({ ...edge, label: `${s.name} low` }, { ...edge, label: `${s.name} high` });
@@ -101,7 +107,7 @@
       } else if (s.style === "bars") {
         all.push({ label: s.name, stroke, fill: stroke, paths: uPlot.paths.bars(), points: { show: false } });
       } else {
-        all.push({ label: s.name, stroke, width: width[s.style], points: { show: false },
+        all.push({ label: s.name, stroke, width: below ? 4 : through ? 1 : width[s.style], points: { show: false },
           ...(inPieces(vector(s.y)) && { paths: pieces }) });
       }
     });

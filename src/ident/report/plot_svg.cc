@@ -94,10 +94,17 @@ PlotFrame frame_of(const Plot& plot, PlotWidth width) {
   return frame;
 }
 
-std::string class_of(const Series& s, int colour) {
+/// Several long lines over each other hide all but the last, unless they let it through.
+bool is_dense(const Plot& plot) {
+  constexpr std::size_t kLong = 400;
+  return std::ranges::count_if(
+             plot.series, [](const Series& s) { return s.style == Style::line && length(s) > kLong; }) > 1;
+}
+
+std::string class_of(const Plot& plot, const Series& s, int colour) {
   switch (s.style) {
-    case Style::measured:
-      return "measured";
+    case Style::measured:  // wide and pale below what should lie on it
+      return has(plot, Style::predicted) ? "measured under" : "measured";
     case Style::predicted:
       return fmt::format("predicted c{}", colour);
     case Style::points:
@@ -109,7 +116,7 @@ std::string class_of(const Series& s, int colour) {
     case Style::line:
       break;
   }
-  return fmt::format("line c{}", colour);
+  return fmt::format("line c{}{}", colour, is_dense(plot) ? " dense" : "");
 }
 
 std::vector<PaperPoint> places(const Series& s, const std::vector<double>& y, const PlotFrame& frame) {
@@ -182,7 +189,7 @@ void draw_bars(Svg& svg, const Plot& plot, const Series& s, const PlotFrame& fra
 }
 
 void draw_series(Svg& svg, const Plot& plot, const Series& s, const PlotFrame& frame, int colour) {
-  const std::string css_class = class_of(s, colour);
+  const std::string css_class = class_of(plot, s, colour);
   switch (s.style) {
     case Style::band:
       svg.path(band_path(places(s, s.y, frame), places(s, s.y2, frame)), css_class);
@@ -213,7 +220,7 @@ std::string draw_plot(const Plot& plot, const std::string& id, const std::string
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     if (const Series& s = plot.series[i]; !s.name.empty())
-      legend.push_back({pretty_unit(s.name), class_of(s, colours[i])});
+      legend.push_back({pretty_unit(s.name), class_of(plot, s, colours[i])});
   Svg svg;
   PlotFrame frame = frame_of(plot, width);
   const double height = frame.draw(svg, plot.series.size() > 1 ? legend : std::vector<LegendEntry>{});
