@@ -150,7 +150,8 @@ TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles)
   std::vector<FlightLog> logs;
   for (const std::uint64_t seed : {3, 4}) {
     SimulationOptions options;
-    options.duration = 6.0, options.rate = 100.0, options.seed = seed;
+    options.duration = seed == 3 ? 6.0 : 9.0;  // the second is eliminated from both ends
+    options.rate = 100.0, options.seed = seed;
     logs.push_back(simulate_flight(vehicle, options).log);
   }
   const std::vector<double> p = parameter_vector(vehicle);
@@ -174,6 +175,29 @@ TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles)
     smoother.accept();
     expect_blocks_add_up(smoother);
   }
+}
+
+// What is known of the last state comes from the last seconds, however much flight there was before: a long
+// chain, whose ends meet in its middle, knows it as a short one does that is eliminated up to it.
+TEST(FlightSmoother, TheEndOfALongChainIsKnownAsThatOfAShortOne) {
+  Vehicle vehicle = testing::published_vehicle();
+  SimulationOptions options;
+  options.duration = 12.0, options.rate = 100.0, options.turbulence = 0.5;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord whole = make_flight_record(vehicle, p, logs);
+  FlightRecord last = without_arcs(whole);
+  last.arcs.push_back(whole.arcs[0].piece(whole.arcs[0].rows() - 351, whole.arcs[0].rows()));
+  const Theta none(p, {}, 1, false);
+  const auto end_of = [&](const FlightRecord& record) {
+    FlightSmoother smoother(record, none, initial_noise(whole), 0.1);
+    smoother.settle(Eigen::VectorXd(0), 6);
+    return smoother.arc_ends().at(0);
+  };
+  const FlightSmoother::End of_long = end_of(whole), of_short = end_of(last);
+  const Eigen::VectorXd std = of_short.P.diagonal().cwiseSqrt();
+  EXPECT_LT(((of_long.P - of_short.P).array() / (std * std.transpose()).array()).abs().maxCoeff(), 0.02);
+  EXPECT_LT((of_long.x.body.w_B - of_short.x.body.w_B).cwiseQuotient(std.head<3>()).norm(), 0.02);
 }
 
 // The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew
