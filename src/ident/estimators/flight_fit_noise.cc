@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ident/estimators/flight_fit.h"
+#include "ident/estimators/flight_input_error.h"
 
 namespace ident {
 namespace {
@@ -106,6 +107,14 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine)
     }
   };
   for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
+  const InputErrorProcess error = input_error_process(record, noise.axes);
+  const auto as_noise = [&](Eigen::Index first) {
+    std::array<ColouredNoise, 3> axes;
+    for (std::size_t i = 0; i < 3; ++i)
+      axes[i] = {std::sqrt(error.variance[first + static_cast<Eigen::Index>(i)]), error.time};
+    return axes;
+  };
+  shorten(kGyro, as_noise(0)), shorten(kVelocity, as_noise(3));
   return std::clamp(h, std::max(4.0 * record.interval, fine ? kFinest : kFinestSearch), 0.25);
 }
 

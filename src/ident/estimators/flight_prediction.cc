@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "ident/estimators/flight_input_error.h"
 #include "ident/estimators/flight_windows.h"
 
 namespace ident {
@@ -55,6 +56,13 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     // No model predicts gusts: they count in the floor.
     expect_outside(P, layout.w_dot, noise.in_log(arc.log).w_dot, horizon);
     expect_outside(P, layout.v_dot, noise.in_log(arc.log).v_dot, horizon);
+    if (one.end < arc.rows()) {
+      const AccelerationVariance error = input_error(record, arc, one.begin, one.end, noise.axes);
+      for (int i = 0; i < 3; ++i) {
+        if (layout.w_dot >= 0) P(layout.w_dot + i, layout.w_dot + i) += error[i];
+        if (layout.v_dot >= 0) P(layout.v_dot + i, layout.v_dot + i) += error[3 + i];
+      }
+    }
     for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n)
       P(layout.motors + n, layout.motors + n) += noise.q_motor * horizon / 2;
     one.covariance = P.data();

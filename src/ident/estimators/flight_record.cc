@@ -103,6 +103,7 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
   inputs.t = arc.t;
   inputs.Omega.resize(log.Omega.size());
   std::vector<std::vector<double>> rougher(log.Omega.size());
+  SpeedErrors errors{arc.t, rougher, rougher};
   in_parallel(log.Omega.size(), [&](std::size_t n) {
     const std::vector<double> column = cut(log.Omega[n]);
     if (log.has_commands()) {
@@ -111,6 +112,7 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
     }
     SmoothedSpeed speed = smoothed_speed(arc.t, column);
     inputs.Omega[n] = std::move(speed.likely), rougher[n] = std::move(speed.rougher);
+    errors.variance[n] = std::move(speed.variance), errors.density[n] = std::move(speed.density);
   });
   if (!log.vbat.empty()) {
     inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
@@ -120,6 +122,12 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
     FlightInputs other = inputs;
     other.Omega = std::move(rougher);
     arc.rougher = std::make_shared<const FlightInputs>(std::move(other));
+    const auto has_noise = [](const std::vector<double>& variance) { return !variance.empty(); };
+    if (std::ranges::any_of(errors.variance, has_noise)) {
+      for (auto* of : {&errors.variance, &errors.density})
+        for (auto& column : *of) column.resize(arc.rows(), 0.0);
+      arc.speed_errors = std::make_shared<const SpeedErrors>(std::move(errors));
+    }
   }
   arc.inputs = std::make_shared<const FlightInputs>(std::move(inputs));
   return arc;
@@ -153,6 +161,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   record.logs = static_cast<int>(logs.size());
   record.signals = signals_of(logs);
   record.motor_rate = p[param::omega_m];
+  record.p.assign(p.begin(), p.end());
   const int rotors = static_cast<int>(vehicle.rotors.size());
   if (rotors == 0 || rotors > kMaxRotors)
     throw UsageError(

@@ -12,15 +12,23 @@
 
 namespace ident {
 
+/// What is left of the noise of smoothed rotor speeds, by rotor and row.
+struct SpeedErrors {
+  std::vector<double> t;                      ///< s
+  std::vector<std::vector<double>> variance;  ///< of the speed, (rad/s)^2
+  std::vector<std::vector<double>> density;   ///< of what was measured, (rad/s)^2 s: variance by distance
+};
+
 /// An uninterrupted piece of one log.
 struct FlightArc {
   int log = 0;
-  std::vector<double> t;                        ///< s
-  std::vector<double> y;                        ///< [row][kChannels], NaN where not sampled
-  std::vector<double> q;                        ///< [row][4] measured attitude
-  std::shared_ptr<const FlightInputs> inputs;   ///< of the whole log; pieces of an arc share them
-  std::shared_ptr<const FlightInputs> rougher;  ///< where speeds are the input: the same, smoothed less
-  std::vector<FlightState<double>> start;       ///< state of each row as read off the measurements
+  std::vector<double> t;                            ///< s
+  std::vector<double> y;                            ///< [row][kChannels], NaN where not sampled
+  std::vector<double> q;                            ///< [row][4] measured attitude
+  std::shared_ptr<const FlightInputs> inputs;       ///< of the whole log; pieces of an arc share them
+  std::shared_ptr<const FlightInputs> rougher;      ///< where speeds are the input: the same, smoothed less
+  std::shared_ptr<const SpeedErrors> speed_errors;  ///< where speeds are the input and have noise
+  std::vector<FlightState<double>> start;           ///< state of each row as read off the measurements
 
   std::size_t rows() const { return t.size(); }
   /// The rows [begin, end) as an arc of their own.
@@ -44,6 +52,7 @@ struct FlightRecord {
   double duration = 0.0;                  ///< of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   std::vector<Warning> warnings;
+  std::vector<double> p;  ///< the stated constants, with which states to start from are simulated
 };
 
 struct RecordOptions {

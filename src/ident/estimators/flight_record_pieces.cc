@@ -12,7 +12,8 @@ FlightRecord without_arcs(const FlightRecord& record) {
           record.logs,       record.signals,
           record.layout,     record.sigma,
           record.interval,   record.duration,
-          record.motor_rate, record.warnings};
+          record.motor_rate, record.warnings,
+          record.p};
 }
 
 FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
@@ -23,7 +24,7 @@ FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
                                      v.begin() + static_cast<std::ptrdiff_t>(end * width));
   };
   out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.start = range(start, 1);
-  out.inputs = inputs, out.rougher = rougher;
+  out.inputs = inputs, out.rougher = rougher, out.speed_errors = speed_errors;
   return out;
 }
 

@@ -91,6 +91,16 @@ void FlightSmoother::set_axes() {
     x.outside.axes = noise_.axes;
   }
   trial_ = states_;
+  set_input_errors();
+}
+
+void FlightSmoother::set_input_errors() {
+  input_errors_.clear();
+  if (std::ranges::none_of(record_->arcs, [](const FlightArc& arc) { return arc.speed_errors != nullptr; }))
+    return;
+  for (const ChunkPlace& place : places_)
+    input_errors_.push_back(ident::input_error(*record_, record_->arcs[static_cast<std::size_t>(place.arc)],
+                                               place.begin, place.end, noise_.axes));
 }
 
 void FlightSmoother::unlink() {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "ident/estimators/flight_chunk_maps.h"
+#include "ident/estimators/flight_input_error.h"
 #include "ident/estimators/flight_noise.h"
 #include "ident/estimators/flight_record.h"
 #include "ident/estimators/flight_theta.h"
@@ -146,6 +147,9 @@ class FlightSmoother {
   /// The accepted states, and weighted residuals [row][kChannels] of each chunk there.
   const std::vector<FlightState<double>>& states() const { return states_; }
   std::vector<std::vector<double>> residuals();
+  /// Variance of the accelerations from outside in chunk k by the error of its input: about the axes of the
+  /// body, then along those of the noise.
+  double input_error(std::size_t k, int axis) const;
   /// Defect of each link at the accepted states, after `residuals()`; empty where there is no link.
   std::vector<Eigen::VectorXd> defects() const;
 
@@ -183,6 +187,7 @@ class FlightSmoother {
   Eigen::VectorXd start_information(std::size_t k) const;
   const AirNoise& air_of(std::size_t k) const;
   Eigen::VectorXd outside(std::size_t k) const;
+  double new_error(std::size_t k, int axis, double carried) const;
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
   void link_slope(std::size_t k, chunk::RowMatrix& E) const;
@@ -198,6 +203,7 @@ class FlightSmoother {
   std::vector<chunk::RowMatrix> state_slopes() const;
   FlightState<double> moved(const FlightState<double>& x, const Eigen::VectorXd& dx) const;
   void set_axes();
+  void set_input_errors();
   chunk::RowMatrix own_covariance(const Elimination& el, std::size_t k) const;
   void posterior_covariances(Elimination& el) const;
   Elimination& accepted() { return eliminations_[accepted_at_]; }
@@ -221,7 +227,8 @@ class FlightSmoother {
   std::vector<Eigen::VectorXd> steps_;               // from the one to the other
   std::vector<ChunkResult> results_;
   std::vector<Eigen::MatrixXd> profiles_;
-  Eigen::VectorXd u_, trial_u_;  // of the accepted and of the last linearisation
+  std::vector<AccelerationVariance> input_errors_;  // of each chunk; empty where the input has none
+  Eigen::VectorXd u_, trial_u_;                     // of the accepted and of the last linearisation
   // The accepted elimination and the last one; the same one from accept() to the next eliminate().
   std::array<Elimination, 2> eliminations_;
   std::size_t accepted_at_ = 0, last_at_ = 0;

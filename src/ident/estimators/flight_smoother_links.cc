@@ -74,6 +74,15 @@ VectorXd FlightSmoother::carried(std::size_t k) const {
   return share;
 }
 
+double FlightSmoother::input_error(std::size_t k, int axis) const {
+  return input_errors_.empty() ? 0.0 : input_errors_[k][axis];
+}
+
+// What the error of the input adds to the variance of a link: it is another one in every chunk.
+double FlightSmoother::new_error(std::size_t k, int axis, double carried) const {
+  return input_error(k + 1, axis) + carried * carried * input_error(k, axis);
+}
+
 // Information on the state at the start of an arc, before any measurement.
 VectorXd FlightSmoother::start_information(std::size_t k) const {
   const StateLayout& layout = record_->layout;
@@ -81,8 +90,8 @@ VectorXd FlightSmoother::start_information(std::size_t k) const {
   VectorXd info = unseen_[static_cast<std::size_t>(places_[k].arc)];
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / variance(air.w_dot[axis]);
-    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / variance(air.v_dot[axis]);
+    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / (variance(air.w_dot[axis]) + input_error(k, i));
+    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / (variance(air.v_dot[axis]) + input_error(k, 3 + i));
   }
   return info;
 }
@@ -156,14 +165,15 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   for (const int at : {layout.v, layout.x})
     for (int i = at; at >= 0 && i < at + 3; ++i)
       if (unseen[i] > 0) W[i] = unseen[i];
-  const auto wanders = [&](int at, const std::array<ColouredNoise, 3>& noise) {
+  const auto wanders = [&](int at, const std::array<ColouredNoise, 3>& noise, int first) {
     for (int i = 0; i < 3 && at >= 0; ++i) {
       const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];
       const double share = axis.carried(h);
-      W[at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + kLeastOutside);
+      W[at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + kLeastOutside +
+                         new_error(k, first + i, share));
     }
   };
-  wanders(layout.w_dot, air_of(k).w_dot), wanders(layout.v_dot, air_of(k).v_dot);
+  wanders(layout.w_dot, air_of(k).w_dot, 0), wanders(layout.v_dot, air_of(k).v_dot, 3);
   // Not omega_m as it stands: with its square for a weight, faster motors would make their noise cheap.
   const double rate = record_->motor_rate;
   // Rotor speeds that nobody measured are known up to a scale, that of km. The floor goes with it: else less

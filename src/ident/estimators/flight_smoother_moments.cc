@@ -28,29 +28,37 @@ constexpr double kNothing = 1e-11;
 // Share of the innovations that the data determine below which there might as well be none.
 constexpr double kHardlyTold = 0.01;
 
-// Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown.
+// Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown. Where
+// the error of the input is part of a link, the link counts by the share of the process in its variance.
 struct ProcessMoments {
-  double now = 0, next = 0, cross = 0, P_now = 0, P_next = 0, P_cross = 0, seconds = 0, count = 0;
+  double now = 0, next = 0, cross = 0, seconds = 0, count = 0, links = 0;
+  double square = 0, unknown = 0;  // of innovations, over the variance of their links
 
-  void add(double x, double y, double P_x, double P_y, double C, double h) {
-    now += x * x, next += y * y, cross += x * y;
-    P_now += P_x, P_next += P_y, P_cross += C;
-    seconds += h, count += 1;
+  /// A link of h seconds whose variance holds `error` besides the process: estimates, their variances and
+  /// covariance.
+  void add(const ColouredNoise& noise, double error, double x, double y, double P_x, double P_y, double C,
+           double h) {
+    if (noise.sigma <= 0) return;
+    const double share = noise.carried(h), own = noise.sigma * noise.sigma * (1 - share * share);
+    const double variance = own + error, weight = own / variance;
+    const auto innovation = [&](double xx, double yy, double xy) {
+      return yy - 2 * share * xy + share * share * xx;
+    };
+    square += weight * innovation(x * x, y * y, x * y) / variance;
+    unknown += weight * innovation(P_x, P_y, C) / variance;
+    now += weight * (x * x + P_x), next += weight * (y * y + P_y), cross += weight * (x * y + C);
+    seconds += h, count += weight, links += 1;
   }
 
   /// The time by expectation maximisation, sigma by MacKay's fixed point: squared innovations over the number
   /// of them that the data determine. Gives the relative change of sigma.
   double update(ColouredNoise& noise) const {
-    if (count < 8 || noise.sigma <= 0) return 0;
-    const double h = seconds / count, share = noise.carried(h);
-    const auto innovations = [&](double x, double y, double c) {
-      return (y - 2 * share * c + share * share * x) / (1 - share * share);
-    };
-    const double variance = noise.sigma * noise.sigma;
-    const double told = count - innovations(P_now, P_next, P_cross) / variance;
+    if (links < 8 || noise.sigma <= 0) return 0;
+    const double h = seconds / links, variance = noise.sigma * noise.sigma;
+    const double told = count - unknown;
     const double determined = std::max(told, kHardlyTold * count);
-    const double ratio = std::clamp(innovations(now, next, cross) / determined / variance, 0.02, 50.0);
-    const double carried = std::clamp((cross + P_cross) / (0.5 * (now + P_now + next + P_next)), 0.01, 0.998);
+    const double ratio = std::clamp(square / determined, 0.02, 50.0);
+    const double carried = std::clamp(cross / (0.5 * (now + next)), 0.01, 0.998);
     const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
     const bool nothing = variance < kNothing || (ratio < 1 && told < kHardlyTold * count);
     noise.sigma *= std::sqrt(ratio);
@@ -111,13 +119,18 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
       const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
       const double h = arc.t[places_[k].end] - arc.t[places_[k].begin];
       const VectorXd now = outside(k) + dx[k], next = outside(k + 1) + dx[k + 1];
-      const auto add = [&](std::array<ProcessMoments, 3>& sum, int at) {
-        for (int i = at; at >= 0 && i < at + 3; ++i)
-          sum[static_cast<std::size_t>(i - at)].add(now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i),
-                                                    el.cross[k](i, i), h);
+      const AirNoise& air = air_of(k);
+      const auto add = [&](std::array<ProcessMoments, 3>& sum, const std::array<ColouredNoise, 3>& noise,
+                           int at, int first) {
+        for (int i = at; at >= 0 && i < at + 3; ++i) {
+          const auto axis = static_cast<std::size_t>(i - at);
+          const double error = new_error(k, first + i - at, noise[axis].carried(h));
+          sum[axis].add(noise[axis], error, now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i),
+                        el.cross[k](i, i), h);
+        }
       };
       LogMoments& log = logs[static_cast<std::size_t>(arc.log)];
-      add(log.turn, layout.w_dot), add(log.push, layout.v_dot);
+      add(log.turn, air.w_dot, layout.w_dot, 0), add(log.push, air.v_dot, layout.v_dot, 3);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
       const auto E = chunk::E(results_[k], n);
       const VectorXd d = defect(k), W = link_weight(k);

@@ -19,20 +19,27 @@ constexpr std::size_t kMostFalse = 2;
 constexpr double kAgree = 3.0;  // times what its neighbours differ, a false sample is off
 constexpr double kFalse = 8.0;  // standard deviations of the noise
 
-std::vector<double> smoothed(const SpeedSamples& samples, const std::vector<double>& q, double times) {
+// Speeds, and what stays unknown of them in units of the noise's variance.
+struct Smoothed {
+  std::vector<double> speed, variance;
+};
+
+Smoothed smoothed(const SpeedSamples& samples, const std::vector<double>& q, double times) {
   const std::size_t n = samples.y.size();
   std::vector<SpeedState> predicted(n), filtered(n);
   filter_speed(
       samples, [&](std::size_t i) { return times * q[i]; }, n,
       [&](std::size_t i, const SpeedState& a, const SpeedState& b) { predicted[i] = a, filtered[i] = b; });
-  std::vector<double> out(n);
-  Eigen::Vector2d x = filtered[n - 1].x;
-  out[n - 1] = x[0];
-  for (std::size_t i = n - 1; i-- > 0;) {
-    const Eigen::Matrix2d F = walk_transition(samples.t[i + 1] - samples.t[i]);
-    x = filtered[i].x +
-        filtered[i].P * F.transpose() * predicted[i + 1].P.inverse() * (x - predicted[i + 1].x);
-    out[i] = x[0];
+  Smoothed out{std::vector<double>(n), std::vector<double>(n)};
+  SpeedState s = filtered[n - 1];
+  for (std::size_t i = n; i-- > 0;) {
+    if (i + 1 < n) {
+      const Eigen::Matrix2d F = walk_transition(samples.t[i + 1] - samples.t[i]);
+      const Eigen::Matrix2d gain = filtered[i].P * F.transpose() * predicted[i + 1].P.inverse();
+      s.x = filtered[i].x + gain * (s.x - predicted[i + 1].x);
+      s.P = filtered[i].P + gain * (s.P - predicted[i + 1].P) * gain.transpose();
+    }
+    out.speed[i] = s.x[0], out.variance[i] = s.P(0, 0);
   }
   return out;
 }
@@ -76,17 +83,22 @@ SmoothedSpeed smoothed_speed(const std::vector<double>& t, const std::vector<dou
     end = t[i];
   }
   const std::vector<double> as_it_is = interpolated(t, speed);
-  if (count < kLeast) return {as_it_is, as_it_is};
+  if (count < kLeast) return {as_it_is, as_it_is, {}, {}};
   samples.distance = (end - first) / static_cast<double>(count - 1);
   SpeedIntensities found = likely_intensities(samples);
-  if (found.q.empty()) return {as_it_is, as_it_is};
-  std::vector<double> likely = smoothed(samples, found.q, 1.0);
-  if (drop_false(samples, likely, found.noise)) {
+  if (found.q.empty()) return {as_it_is, as_it_is, {}, {}};
+  Smoothed likely = smoothed(samples, found.q, 1.0);
+  if (drop_false(samples, likely.speed, found.noise)) {
     found = likely_intensities(samples);
-    if (found.q.empty()) return {as_it_is, as_it_is};
+    if (found.q.empty()) return {as_it_is, as_it_is, {}, {}};
     likely = smoothed(samples, found.q, 1.0);
   }
-  return {std::move(likely), smoothed(samples, found.q, kRougher)};
+  SmoothedSpeed out{std::move(likely.speed), smoothed(samples, found.q, kRougher).speed, {}, {}};
+  for (std::size_t i = 0; i < found.noise.size(); ++i) {
+    const double noise = std::isfinite(found.noise[i]) ? found.noise[i] : 0.0;
+    out.variance.push_back(noise * likely.variance[i]), out.density.push_back(noise * samples.distance);
+  }
+  return out;
 }
 
 }  // namespace ident

@@ -9,6 +9,9 @@ namespace ident {
 struct SmoothedSpeed {
   std::vector<double> likely;
   std::vector<double> rougher;  ///< smoothed less: what changes with it depends on the smoothing
+  // Of the error of `likely`; empty where there is none.
+  std::vector<double> variance;  ///< (rad/s)^2
+  std::vector<double> density;   ///< of the noise of the samples, (rad/s)^2 s
 };
 
 /// The mean of what a rotor's speed was at each row, given all its samples (NaN where there is none; one that

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -19,7 +20,17 @@ constexpr std::size_t kNeighbours = 10;
 
 struct Jump {
   double size, seen, t;  // seen: in standard deviations of the sensor over the piece
+  double variance;       // that gusts and the error of measured speeds give it
 };
+
+// What is expected of jumps differs along a flight where speeds are the input: all as if they were usual
+// ones.
+void make_alike(std::vector<Jump>& jumps) {
+  double mean = 0;
+  for (const Jump& j : jumps) mean += j.variance / static_cast<double>(jumps.size());
+  for (Jump& j : jumps)
+    if (j.variance > 0) j.size *= std::sqrt(mean / j.variance);
+}
 
 std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int axis, int log) {
   const auto& places = fit.smoother->chunks();
@@ -34,8 +45,14 @@ std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int
                  rows = static_cast<double>(places[k].end - places[k].begin);
     const int channel = axis < 3 ? kGyro + axis : kVelocity + axis - 3;
     const double noise = fit.noise.sigma[static_cast<std::size_t>(channel)] / std::sqrt(rows);
-    out.push_back({std::abs(size), std::abs(size) * h / noise, arc.t[places[k].end]});
+    const AirNoise& air = fit.noise.in_log(log);
+    const ColouredNoise& gusts =
+        axis < 3 ? air.w_dot[static_cast<std::size_t>(axis)] : air.v_dot[static_cast<std::size_t>(axis - 3)];
+    const double variance = 2 * gusts.sigma * gusts.sigma * (1 - gusts.carried(h)) +
+                            fit.smoother->input_error(k, axis) + fit.smoother->input_error(k + 1, axis);
+    out.push_back({std::abs(size), std::abs(size) * h / noise, arc.t[places[k].end], variance});
   }
+  if (has_noisy_input(record)) make_alike(out);
   return out;
 }
 
