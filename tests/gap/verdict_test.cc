@@ -15,6 +15,10 @@ TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   EXPECT_NE(c.judged().sentence.find("its constants refitted"), std::string::npos);
   c.closes({0.0, 0.3}, 0.1);
   EXPECT_EQ(c.judged().sentence, "The model explains these logs down to the noise; no cause stands out.");
+  c.gap.after = 1.3 * c.gap.floor;
+  EXPECT_EQ(c.judged().sentence,
+            "The model explains these logs down to 1.3 times their noise; no cause stands out.");
+  c.gap.after = c.gap.floor;
   c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
   EXPECT_EQ(c.judged().status, "unknown");
   c.jumps = {{"Mz", 0, 5, 8.0, 3.0}};  // gusts do that by a drag that is known

@@ -101,9 +101,7 @@ class Fitting {
   /// Noise and unknowns in turn. Chunks may change in the first two rounds.
   void find_noise(const std::function<void(double)>& tell) {
     for (int round = 0; round < options_.noise_rounds; ++round) {
-      // Noise to begin with is so far off that what states take of the residuals does not matter.
-      const bool first_look = round == 0 && !gone_on_ && smoother_->stands_at(u_);
-      if (!first_look) smoother_->linearize(u_, true);
+      smoother_->linearize(u_, true);
       smoother_->set_gentle(false);
       smoother_->accept();
       if (options_.robust) smoother_->set_huber(kHuber);
@@ -124,9 +122,8 @@ class Fitting {
       }
       const NewtonStep step = newton_step(*smoother_, u_);
       smoother_->accept();
-      const bool done =
-          !turned && !first_look &&
-          (change < (options_.rough_noise ? kRoughly : kKnown) || (round >= 5 && change < kNearly));
+      const bool done = !turned && (change < (options_.rough_noise ? kRoughly : kKnown) ||
+                                    (round >= 5 && change < kNearly));
       if (done && !(step.fall < kNear * theta_.size())) break;
       if ((done || step.fall < kNear) && theta_.possible(u_ + step.du)) {
         u_ += step.du;

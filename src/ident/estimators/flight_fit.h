@@ -39,8 +39,9 @@ struct FlightFit {
   double chunk_seconds = 0.0;
   int steps = 0;
   bool converged = false;
-  std::vector<ScoreBlock> blocks;            ///< what stretches of `block_seconds` say
-  std::shared_ptr<FlightSmoother> smoother;  ///< at the optimum; refers to the record and theta of the call
+  std::vector<ScoreBlock> blocks;  ///< what stretches of `block_seconds` say
+  std::shared_ptr<FlightSmoother>
+      smoother;  ///< before the last small step; refers to the record and theta of the call
 };
 
 /// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.

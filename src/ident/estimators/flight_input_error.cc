@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "ident/estimators/statistics.h"
+
 namespace ident {
 namespace {
 
@@ -19,8 +21,7 @@ RotorError mean_error(const FlightArc& arc, std::size_t rotor, std::size_t begin
   const auto last = std::ranges::upper_bound(errors.t, arc.t[end]) - errors.t.begin();
   RotorError sum;
   for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-    const double speed = arc.inputs->Omega[rotor][i];
-    sum.speed += speed, sum.other += arc.rougher->Omega[rotor][i] - speed;
+    sum.speed += arc.inputs->Omega[rotor][i], sum.other += errors.other[rotor][i];
     sum.variance += errors.variance[rotor][i], sum.density += errors.density[rotor][i];
   }
   const double rows = std::max<double>(1.0, static_cast<double>(last - first));
@@ -68,9 +69,11 @@ InputErrorProcess input_error_process(const FlightRecord& record, GustAxes axes)
     const double share = static_cast<double>(arc.rows());
     AccelerationVariance sum = AccelerationVariance::Zero();
     for (std::size_t n = 0; n < record.vehicle->rotors.size(); ++n) {
-      const RotorError e = mean_error(arc, n, 0, arc.rows() - 1);
-      variance += share * e.variance, density += share * e.density;
-      add_rotor(record, record.vehicle->rotors[n], axes_in(arc, 0, axes), e.speed, e.variance, sum);
+      const double speed = mean_error(arc, n, 0, arc.rows() - 1).speed;
+      // In the middle of all rows: a hole in the samples says nothing of the others.
+      const double usual = median(arc.speed_errors->variance[n]);
+      variance += share * usual, density += share * median(arc.speed_errors->density[n]);
+      add_rotor(record, record.vehicle->rotors[n], axes_in(arc, 0, axes), speed, usual, sum);
     }
     out.variance += share * sum, rows += share;
   }

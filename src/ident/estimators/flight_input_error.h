@@ -14,7 +14,8 @@ using AccelerationVariance = Eigen::Matrix<double, 6, 1>;
 /// the record's constants; the acceleration along `axes`. Zero where commands are the input.
 ///
 /// The error of a smoothed random walk has the spectrum R/(1 + (w/w_c)^4) with R the density of the noise, so
-/// that a mean over h seconds varies by R/h, and never by more than the error itself.
+/// that a mean over h seconds varies by R/h, and never by more than the error itself. To that comes what
+/// another smoothing would say: where motors are suddenly driven, an error is none by chance.
 AccelerationVariance input_error(const FlightRecord& record, const FlightArc& arc, std::size_t begin,
                                  std::size_t end, GustAxes axes);
 

@@ -103,7 +103,7 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
   inputs.t = arc.t;
   inputs.Omega.resize(log.Omega.size());
   std::vector<std::vector<double>> rougher(log.Omega.size());
-  SpeedErrors errors{arc.t, rougher, rougher};
+  SpeedErrors errors{arc.t, rougher, rougher, rougher};
   in_parallel(log.Omega.size(), [&](std::size_t n) {
     const std::vector<double> column = cut(log.Omega[n]);
     if (log.has_commands()) {
@@ -113,6 +113,8 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
     SmoothedSpeed speed = smoothed_speed(arc.t, column);
     inputs.Omega[n] = std::move(speed.likely), rougher[n] = std::move(speed.rougher);
     errors.variance[n] = std::move(speed.variance), errors.density[n] = std::move(speed.density);
+    for (std::size_t i = 0; i < rougher[n].size(); ++i)
+      errors.other[n].push_back(rougher[n][i] - inputs.Omega[n][i]);
   });
   if (!log.vbat.empty()) {
     inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
@@ -124,7 +126,7 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
     arc.rougher = std::make_shared<const FlightInputs>(std::move(other));
     const auto has_noise = [](const std::vector<double>& variance) { return !variance.empty(); };
     if (std::ranges::any_of(errors.variance, has_noise)) {
-      for (auto* of : {&errors.variance, &errors.density})
+      for (auto* of : {&errors.variance, &errors.density, &errors.other})
         for (auto& column : *of) column.resize(arc.rows(), 0.0);
       arc.speed_errors = std::make_shared<const SpeedErrors>(std::move(errors));
     }

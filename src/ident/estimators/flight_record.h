@@ -17,6 +17,7 @@ struct SpeedErrors {
   std::vector<double> t;                      ///< s
   std::vector<std::vector<double>> variance;  ///< of the speed, (rad/s)^2
   std::vector<std::vector<double>> density;   ///< of what was measured, (rad/s)^2 s: variance by distance
+  std::vector<std::vector<double>> other;     ///< what another smoothing says, against this one, rad/s
 };
 
 /// An uninterrupted piece of one log.
@@ -52,7 +53,8 @@ struct FlightRecord {
   double duration = 0.0;                  ///< of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   std::vector<Warning> warnings;
-  std::vector<double> p;  ///< the stated constants, with which states to start from are simulated
+  std::vector<double> p;  ///< the stated constants: states to start from are simulated with them, and what
+                          ///< errors of speeds do is reckoned by them
 };
 
 struct RecordOptions {

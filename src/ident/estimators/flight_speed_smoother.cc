@@ -18,6 +18,7 @@ constexpr double kRougher = 3.0;
 constexpr std::size_t kMostFalse = 2;
 constexpr double kAgree = 3.0;  // times what its neighbours differ, a false sample is off
 constexpr double kFalse = 8.0;  // standard deviations of the noise
+constexpr double kHole = 10.0;  // s, longer than any piece of flight over which means are taken
 
 // Speeds, and what stays unknown of them in units of the noise's variance.
 struct Smoothed {
@@ -96,7 +97,9 @@ SmoothedSpeed smoothed_speed(const std::vector<double>& t, const std::vector<dou
   SmoothedSpeed out{std::move(likely.speed), smoothed(samples, found.q, kRougher).speed, {}, {}};
   for (std::size_t i = 0; i < found.noise.size(); ++i) {
     const double noise = std::isfinite(found.noise[i]) ? found.noise[i] : 0.0;
-    out.variance.push_back(noise * likely.variance[i]), out.density.push_back(noise * samples.distance);
+    // Worse known than a sample: a hole, in which the error is the same for long.
+    const double lasts = likely.variance[i] > 1 ? kHole * likely.variance[i] : samples.distance;
+    out.variance.push_back(noise * likely.variance[i]), out.density.push_back(noise * lasts);
   }
   return out;
 }

@@ -98,12 +98,7 @@ Plot channel_plot(const Json& where) {
 
 Plot band_plot(const Json& where) {
   Plot plot = share_plot("bands", "Share of the frequency bands");
-  double sum = 0;
-  for (const Json& band : where["bands"]) {
-    add_bar(plot, band_name(band), 100 * number(band["share"]));
-    sum += number(band["share"]);
-  }
-  if (sum == 0) plot.series.clear();  // there is no gap to have shares of
+  for (const Json& band : where["bands"]) add_bar(plot, band_name(band), 100 * number(band["share"]));
   return plot;
 }
 

@@ -181,7 +181,10 @@ Section where_section(const Json& found, const ResidualWrench& before, const Res
   Section section{.title = "Where the gap lies",
                   .text = where_text(where),
                   .tables = {channel_table(where), regime_table(where), time_table(where)},
-                  .plots = {channel_plot(where), band_plot(where)}};
+                  .plots = {channel_plot(where)}};
+  // Without a gap there is nothing to have shares of.
+  if (std::ranges::any_of(where["bands"], [](const Json& band) { return number(band["share"]) > 0; }))
+    section.plots.push_back(band_plot(where));
   if (!where["channels"].empty() && !where["regimes"].empty()) {
     const auto top = std::ranges::find(before.names, where["channels"][0]["name"].get<std::string>());
     section.plots.push_back(

@@ -84,7 +84,8 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
     const Eigen::Vector3d push_B = turns ? x.outside.v_dot : R.transpose() * x.outside.v_dot;
     const AirNoise& air = floor.in_log(arc.log);
     Eigen::Vector3d gusts;
-    for (int i = 0; i < 3; ++i) gusts[i] = std::pow(air.v_dot[static_cast<std::size_t>(i)].sigma, 2);
+    for (int i = 0; i < 3; ++i)
+      gusts[i] = std::pow(air.v_dot[static_cast<std::size_t>(i)].sigma, 2) + smoother.input_error(at, 3 + i);
     const Eigen::Vector3d gusts_B =
         floor.axes == GustAxes::body ? gusts : Eigen::Vector3d(R.transpose().cwiseAbs2() * gusts);
     for (int c = 0; c < 3; ++c) {
@@ -96,16 +97,19 @@ ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, c
       }
       out.residual(k, c) = m * (push_B[c] + (count > 0 ? sum / count : 0.0));
       const AirNoise& expected = fit.noise.in_log(arc.log);
+      const double turned = smoother.input_error(at, c), pushed = smoother.input_error(at, 3 + c);
       const double white = floor.sigma[kForce + cc],
                    speeds = static_cast<double>(samples(residuals[at], kVelocity + cc));
       variance[c] += m * m *
-                     (gusts_B[c] + (count > 0 ? white * white / count
-                                              : shown_by_noise(floor.sigma[kVelocity + cc], speeds, h,
-                                                               expected.v_dot[cc].sigma)));
+                     (gusts_B[c] +
+                      (count > 0 ? white * white / count
+                                 : shown_by_noise(floor.sigma[kVelocity + cc], speeds, h,
+                                                  std::hypot(expected.v_dot[cc].sigma, std::sqrt(pushed)))));
       const double gyro = static_cast<double>(samples(residuals[at], kGyro + cc));
-      const double moved = shown_by_noise(floor.sigma[kGyro + cc], gyro, h, expected.w_dot[cc].sigma);
+      const double moved = shown_by_noise(floor.sigma[kGyro + cc], gyro, h,
+                                          std::hypot(expected.w_dot[cc].sigma, std::sqrt(turned)));
       out.residual(k, 3 + c) = J[cc] * x.outside.w_dot_B[c];
-      variance[3 + c] += J[cc] * J[cc] * (std::pow(air.w_dot[cc].sigma, 2) + moved);
+      variance[3 + c] += J[cc] * J[cc] * (std::pow(air.w_dot[cc].sigma, 2) + turned + moved);
     }
     for (Index c = 0; rotors && c < N; ++c) {
       if (defects[at].size() > 0) out.residual(k, 6 + c) = -defects[at][layout.motors + c] / h;

@@ -75,8 +75,6 @@ std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
   return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
 }
 
-// Where no cause was found: what still says that something is there. What strikes a vehicle does not only
-// turn it about its yaw axis: that is what gusts do by a drag that the rotors do not share alike.
 // To what the model explains the logs.
 std::string remaining_noise(const GapClosed& gap) {
   constexpr double kAtTheNoise = 1.1;
@@ -84,6 +82,8 @@ std::string remaining_noise(const GapClosed& gap) {
   return ratio > kAtTheNoise ? fmt::format("{:.1f} times their noise", ratio) : "the noise";
 }
 
+// Where no cause was found: what still says that something is there. What strikes a vehicle does not only
+// turn it about its yaw axis: that is what gusts do by a drag that the rotors do not share alike.
 Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector<SpectralLine>& lines,
                      const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
