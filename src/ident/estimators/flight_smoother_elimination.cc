@@ -190,7 +190,7 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   std::vector<ReducedSystem> parts(chains_.size());
   in_parallel(chains_.size(), [&](std::size_t c) {
     auto& [at, other] = ends[c];
-    if (!at) at = std::move(other);
+    if (!at) std::swap(at, other);
     const int all = static_cast<int>(shared());
     if (!at) at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : all, all);
     if (other) at->next += other->next, at->sum += other->sum;
