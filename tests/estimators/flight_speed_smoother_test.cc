@@ -13,6 +13,7 @@
 #include "ident/estimators/flight_refine.h"
 #include "ident/model/simulate.h"
 #include "support/known_quad.h"
+#include "support/published_hover.h"
 
 namespace ident {
 namespace {
@@ -187,6 +188,42 @@ std::vector<FlightLog> flights_by_noisy_speeds(const Vehicle& truth) {
     logs.push_back(std::move(log));
   }
   return logs;
+}
+
+// A rotor's error turns and pushes the vehicle by as much as the model does with a speed that is off by it.
+TEST(SpeedSmoother, ErrorsOfTheInputActAsTheModelSays) {
+  const Vehicle vehicle = testing::published_vehicle();  // two rotors are slanted
+  const std::vector<double> p = parameter_vector(vehicle);
+  SimulationOptions options;
+  options.rate = 100, options.duration = 3, options.scenario = "hover", options.signals.rotor_speeds = 1;
+  FlightLog log = simulate_flight(vehicle, options).log;
+  log.delta.clear();
+  FlightRecord record = make_flight_record(vehicle, p, std::span(&log, 1));
+  FlightArc& arc = record.arcs.at(0);
+  const EffectSet<double> effects(p, active_effects(p));
+  const auto accelerations_with = [&](const FlightInputs& inputs) {
+    FlightState<double> x = arc.start[100];
+    const BodyRate<double> rate =
+        Flight<double, EffectSet<double>>(vehicle, p, effects, inputs).rate(x, arc.t[100]);
+    AccelerationVariance a;
+    a << rate.w_dot_B, rate.v_dot_W;
+    return a;
+  };
+  constexpr double kOff = 0.01;
+  for (std::size_t n = 0; n < vehicle.rotors.size(); ++n) {
+    SpeedErrors errors{arc.t, {}, {}, {}};
+    for (auto* of : {&errors.variance, &errors.density, &errors.other})
+      of->assign(vehicle.rotors.size(), std::vector<double>(arc.rows(), 0.0));
+    errors.variance[n].assign(arc.rows(), 4.0), errors.density[n].assign(arc.rows(), 1e6);
+    arc.speed_errors = std::make_shared<const SpeedErrors>(errors);
+    FlightInputs off = *arc.inputs;
+    for (double& Omega : off.Omega[n]) Omega += kOff;
+    const AccelerationVariance slope = (accelerations_with(off) - accelerations_with(*arc.inputs)) / kOff;
+    const AccelerationVariance found = input_error(record, arc, 100, 101, GustAxes::world);
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(found[i], 4.0 * slope[i] * slope[i], 0.03 * found.segment(i / 3 * 3, 3).maxCoeff())
+          << n << i;
+  }
 }
 
 // What is left of their noise rolls and pitches the vehicle in the model, not in the air. (About the yaw axis

@@ -23,7 +23,7 @@ struct FlightFitOptions {
   double tolerance = 0.01;     ///< fall of the cost (twice the log likelihood) that is worth no evaluation
   double tolerance_of_misfit = 0.0;  ///< the same as a share of the cost beyond that of noise alone
   bool exact = true;  ///< ends with steps of order 4, and slopes as precise as shows: see finish_fit
-  int order = 4;      ///< of the integrator's steps until then; 2, at half the cost, where that does not show
+  int order = 4;      ///< of the integrator's steps until then; 2, which costs less, where that does not show
   std::shared_ptr<const FlightSmoother> near;  ///< of a like model, whose states to start from
   int threads = 0;
   std::function<void(double)> progress;  ///< share done

@@ -28,9 +28,6 @@ double sensor_delay_of(const std::vector<double>& p, double interval) {
 // motor, say, leaves so little of its state at the start of an arc that the first steps there are wild.
 constexpr std::array kShares = {0.1, 0.0};
 
-// Chains of more chunks are eliminated from both ends.
-constexpr std::size_t kLongChain = 40;
-
 bool flies(const ChunkResult& result) {
   if (!std::isfinite(result.cost) || !result.x_end.body.w_B.allFinite()) return false;
   return std::ranges::all_of(result.E, [](double e) { return std::isfinite(e); }) &&
@@ -38,11 +35,6 @@ bool flies(const ChunkResult& result) {
 }
 
 }  // namespace
-
-FlightSmoother::Chain FlightSmoother::chain_of(std::size_t begin, std::size_t end) {
-  const bool is_long = end - begin > kLongChain;
-  return {begin, is_long ? begin + (end - begin) / 2 : end - 1, end};
-}
 
 FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, NoiseModel noise,
                                double chunk_seconds, int threads)
@@ -92,15 +84,6 @@ void FlightSmoother::set_axes() {
   }
   trial_ = states_;
   set_input_errors();
-}
-
-void FlightSmoother::set_input_errors() {
-  input_errors_.clear();
-  if (std::ranges::none_of(record_->arcs, [](const FlightArc& arc) { return arc.speed_errors != nullptr; }))
-    return;
-  for (const ChunkPlace& place : places_)
-    input_errors_.push_back(ident::input_error(*record_, record_->arcs[static_cast<std::size_t>(place.arc)],
-                                               place.begin, place.end, noise_.axes));
 }
 
 void FlightSmoother::unlink() {

@@ -94,7 +94,7 @@ class FlightSmoother {
     stands_ = stands_ && exact == exact_, exact_ = exact;
     if (exact) set_order(4);
   }
-  /// Order of the integrator's steps: 4, or 2 at half the cost.
+  /// Order of the integrator's steps: 4, or 2 for some less cost.
   void set_order(int order) { stands_ = stands_ && order == order_, order_ = order; }
   int order() const { return order_; }
   /// What that changes at the accepted states: sum of the squares of the differences of weighted residuals.

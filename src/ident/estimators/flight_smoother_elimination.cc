@@ -16,6 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Chains of more chunks are eliminated from both ends.
+constexpr std::size_t kLongChain = 40;
+
+FlightSmoother::Chain FlightSmoother::chain_of(std::size_t begin, std::size_t end) {
+  const bool is_long = end - begin > kLongChain;
+  return {begin, is_long ? begin + (end - begin) / 2 : end - 1, end};
+}
+
 // One end of a chain on its way through elimination. Matrices are kept row by row, [D | B f] over states and
 // shared unknowns, the second part from a column that is a multiple of kRowPad; the last column is the
 // gradient.

@@ -74,6 +74,15 @@ VectorXd FlightSmoother::carried(std::size_t k) const {
   return share;
 }
 
+void FlightSmoother::set_input_errors() {
+  input_errors_.clear();
+  if (std::ranges::none_of(record_->arcs, [](const FlightArc& arc) { return arc.speed_errors != nullptr; }))
+    return;
+  for (const ChunkPlace& place : places_)
+    input_errors_.push_back(ident::input_error(*record_, record_->arcs[static_cast<std::size_t>(place.arc)],
+                                               place.begin, place.end, noise_.axes));
+}
+
 double FlightSmoother::input_error(std::size_t k, int axis) const {
   return input_errors_.empty() ? 0.0 : input_errors_[k][axis];
 }

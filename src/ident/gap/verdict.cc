@@ -11,21 +11,15 @@
 #include "ident/core/format_number.h"
 #include "ident/gap/against_naming.h"
 #include "ident/gap/further.h"
+#include "ident/gap/nothing_found.h"
 #include "ident/gap/wrong_lag.h"
 
 namespace ident {
 namespace {
 
-// A generic rival that gains this much on held-out flight, with no cause found, has seen something.
-constexpr double kRivalGain = 45.0;
-// A share of what the model misses as given that its constants, refitted, take away.
-constexpr double kOfConstants = 0.5;
 // A cause is identified with this probability, and one that stands in its place is told of from that on.
 constexpr double kSure = 0.9;
 constexpr double kTold = 0.05;
-// Times the noise floor of what is missed on held-out flight with no cause found: in 400 flights without one
-// the most was 1.53.
-constexpr double kAboveFloor = 2.0;
 // An answer of more names than this, those of how the sensor is mounted apart, is none, nor one that leaves
 // open which of more it is.
 constexpr std::ptrdiff_t kMostNames = 3;
@@ -73,61 +67,6 @@ std::vector<std::string> probable_names(const SearchResult& search, const std::v
 
 std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
   return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
-}
-
-// To what the model explains the logs.
-std::string remaining_noise(const GapClosed& gap) {
-  constexpr double kAtTheNoise = 1.1;
-  const double ratio = gap.after / gap.floor;
-  return ratio > kAtTheNoise ? fmt::format("{:.1f} times their noise", ratio) : "the noise";
-}
-
-// Where no cause was found: what still says that something is there. What strikes a vehicle does not only
-// turn it about its yaw axis: that is what gusts do by a drag that the rotors do not share alike.
-Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector<SpectralLine>& lines,
-                     const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
-  Judged out{.status = "unknown"};
-  const auto strike =
-      std::ranges::find_if(jumps, [](const Burst& one) { return one.channel != std::string_view("Mz"); });
-  if (rival.total() > kRivalGain)
-    out.sentence = fmt::format(
-        "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
-        "misses, most in {}, can be predicted from the flight itself.",
-        rival.strongest());
-  else if (!lines.empty())
-    out.sentence = fmt::format(
-        "Something swings or vibrates at {} Hz (seen in {}) that no cause of the catalogue explains: a "
-        "slung or loose load, a flexible arm, a propeller out of balance.",
-        format_number(lines[0].hz, 3), lines[0].channel);
-  else if (strike != jumps.end())
-    out.sentence = fmt::format(
-        "Something strikes this vehicle at moments (seen in {}, most at {} s of log {}): the wash of "
-        "another vehicle, a touch, a part that comes loose. No cause of the catalogue does that.",
-        strike->channel, format_number(strike->t, 3), strike->log + 1);
-  else if (const Parameter* p = contradicted(fitted, [](const std::string&) { return false; }))
-    out.sentence = fmt::format(
-        "The flight contradicts the value of {} known beforehand by {:.0f} standard deviations, and no cause "
-        "explains why.",
-        p->name, std::abs(*p->pull));
-  else if (gap.after > kAboveFloor * gap.floor)
-    out.sentence = fmt::format(
-        "The model misses these logs by {} times their noise, and no cause that was tried explains it.",
-        format_number(gap.after / gap.floor, 2));
-  else if (gap.closed > kOfConstants)
-    out = {.status = "none",
-           .sentence =
-               "No cause stands out: with its constants refitted, within what was stated of them, the "
-               "model explains these logs down to " +
-               remaining_noise(gap) + "."};
-  else
-    out = {.status = "none",
-           .sentence =
-               "The model explains these logs down to " + remaining_noise(gap) + "; no cause stands out."};
-  if (out.status == "none" && !jumps.empty())
-    out.sentence +=
-        fmt::format(" Moments about the yaw axis jump, most at {} s of log {}, as gusts make them.",
-                    format_number(jumps[0].t, 3), jumps[0].log + 1);
-  return out;
 }
 
 // Names that the flight leaves open where none of them could be tried.
