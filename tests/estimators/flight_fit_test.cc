@@ -38,6 +38,27 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
   }
 }
 
+// What is left of a fall when no evaluation is worth it is taken all the same.
+TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
+  const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  const std::vector<double> p = parameter_vector(vehicle);
+  SimulationOptions simulated;
+  simulated.duration = 15.0;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, simulated).log};
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta theta(p, free_constants(vehicle, p), record.logs, true);
+  FlightFitOptions options;
+  const FlightFit fit = fit_flight(record, theta, options);
+  FlightFit beside = fit;
+  const double deviation = 1 / std::sqrt(fit.information(0, 0));  // all others held
+  beside.u[0] += 0.2 * deviation;
+  options.tolerance = 0.09;  // 0.04 are to be had
+  finish_fit(beside, theta, options);
+  EXPECT_EQ(beside.steps, fit.steps);
+  EXPECT_LT((beside.u - fit.u).cwiseQuotient(fit.naive_covariance.diagonal().cwiseSqrt()).norm(), 0.01);
+  EXPECT_NEAR(beside.cost, fit.cost, 0.01);
+}
+
 TEST(FlightFit, AnIntegratorOfLowerOrderServesWhereItDoesNotShow) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
