@@ -107,6 +107,25 @@ SharedMinimum fit_fast(const Problem& problem, int threads, double tolerance, bo
   return minimise_shared(*smoother, Eigen::VectorXd::Zero(problem.theta->size()), tolerance);
 }
 
+// All segments once, on one core, by an instruction set that this machine has; their states at `smoother`'s.
+void evaluate_all(std::string_view isa, const Problem& problem, const FlightSmoother& smoother) {
+  const FlightArc& arc = problem.record.arcs[0];
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.theta->size());
+  const std::vector<Seed> seeds = problem.theta->seeds(zero, 0);
+  std::array<double, kChannels> weight;
+  for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / smoother.noise().sigma[c];
+  ChunkTask task;
+  task.vehicle = problem.record.vehicle, task.inputs = arc.inputs.get(), task.layout = problem.record.layout;
+  task.p = problem.p, task.seeds = seeds, task.thetas = problem.theta->size(), task.rows = arc.rows();
+  task.t = arc.t.data(), task.y = arc.y.data(), task.q = arc.q.data(), task.weight = weight.data();
+  ChunkResult result;
+  for (std::size_t k = 0; k < smoother.chunks().size(); ++k) {
+    task.begin = smoother.chunks()[k].begin, task.end = smoother.chunks()[k].end;
+    task.x0 = smoother.states()[k];
+    evaluate_chunk_with(isa, task, result);
+  }
+}
+
 void row(const std::string& what, double seconds, const std::string& note = "") {
   fmt::print("| {:<44} | {:>9.4f} | {} |\n", what, seconds, note);
 }
@@ -146,6 +165,10 @@ int run(int runs) {
   row("start", least_seconds(runs, [&] { problem.start(); }));
   const auto one = segments(problem, 1), two = segments(problem, 2);
   one->settle(zero, 1), two->settle(zero, 1);
+  for (const char* isa : {"baseline", "avx2", "avx512"})
+    if (runs_here(isa))
+      row(fmt::format("residuals, derivatives, one core, {}", isa),
+          least_seconds(runs, [&] { evaluate_all(isa, problem, *one); }));
   row("residuals, one core", least_seconds(runs, [&] { one->residuals(); }));
   const double linearise = least_seconds(runs, [&] { one->linearize(zero); });
   row("residuals, derivatives, elimination, one core", linearise);

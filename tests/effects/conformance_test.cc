@@ -11,7 +11,9 @@
 namespace ident {
 namespace {
 
-struct Here {};
+struct Here {
+  static constexpr int kBytes = 16;
+};
 using D = Dual<1, Here>;
 
 /// Eight rotors, so that every numbered parameter has its rotor; drag, so that wind has something to act on.

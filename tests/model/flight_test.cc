@@ -9,7 +9,9 @@
 namespace ident {
 namespace {
 
-struct Here {};
+struct Here {
+  static constexpr int kBytes = 16;
+};
 using D = Dual<1, Here>;
 
 Vehicle small_quad() {

@@ -10,6 +10,10 @@
 namespace ident {
 namespace {
 
+struct Here {
+  static constexpr int kBytes = 16;
+};
+
 constexpr double kDelay = 0.0013;
 
 /// Speed of a rotor after 0.1 s of a staircase at 250 Hz that arrives `kDelay` late.
@@ -54,7 +58,6 @@ TEST(HeldCommand, TheLineHasTheMeanAndTheFirstMomentOfTheCommand) {
 // Commands are sampled where steps begin. There a delay of zero has the derivative of a small one, over many
 // rows whose times are rounded.
 TEST(HeldCommand, AnyDelayMovesAJumpOnTheEdgeIntoTheLaterStep) {
-  struct Here {};
   using D = Dual<1, Here>;
   std::vector<double> t, delta;
   for (int i = 0; i < 400; ++i)

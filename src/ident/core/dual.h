@@ -3,7 +3,8 @@
 // The value is a double. Derivatives are of type D: single precision where they serve a Gauss-Newton step,
 // which asks for the residuals to the last digit but for their slopes only to some.
 //
-// `Isa` is an empty tag. Code that is compiled several times for different instruction sets names its own tag
+// `Isa` names an instruction set and the bytes of its vectors, kBytes: wider ones GCC takes apart, and builds
+// them again in memory. Code that is compiled several times for different instruction sets names its own one
 // in each, so that no function of one build can be taken for that of another.
 #pragma once
 
@@ -13,24 +14,24 @@
 
 namespace ident {
 
-/// 64 bytes of numbers: 8 doubles or 16 floats.
-template <class D>
-struct PackOf {
-  using type __attribute__((vector_size(64))) = D;
+/// `bytes` of numbers.
+template <class D, int bytes>
+struct VectorOf {
+  using type __attribute__((vector_size(bytes))) = D;
 };
-using Pack8 = PackOf<double>::type;
 
+/// K packs of 64 bytes of derivatives: 8 doubles or 16 floats each.
 template <int K, class Isa, class D = double>
 struct Dual {
-  using Pack = typename PackOf<D>::type;
-  static constexpr int lanes = 64 / sizeof(D), width = lanes * K;
+  using Vector = typename VectorOf<D, Isa::kBytes>::type;
+  static constexpr int width = K * 64 / static_cast<int>(sizeof(D)),
+                       lanes = Isa::kBytes / static_cast<int>(sizeof(D)), vectors = width / lanes;
   double v;
-  Pack d[K];
+  Vector d[vectors];
 
-  Dual() = default;                // not initialised, like a double: temporaries are many
-  Dual(double value) : v(value) {  // NOLINT: a constant is a dual number without derivatives
-    for (int k = 0; k < K; ++k) d[k] = Pack{};
-  }
+  Dual() = default;  // not initialised, like a double: temporaries are many
+  Dual(double value)
+      : Dual(of(value, [](int) { return Vector{}; })) {}  // NOLINT: a constant is a dual number
   void seed(int i, double derivative = 1.0) { d[i / lanes][i % lanes] = static_cast<D>(derivative); }
   double derivative(int i) const { return static_cast<double>(d[i / lanes][i % lanes]); }
 
@@ -40,54 +41,31 @@ struct Dual {
     return true;
   }
 
-  [[gnu::always_inline]] Dual& operator+=(const Dual& b) {
-    v += b.v;
-    for (int k = 0; k < K; ++k) d[k] += b.d[k];
-    return *this;
-  }
-  [[gnu::always_inline]] Dual& operator-=(const Dual& b) {
-    v -= b.v;
-    for (int k = 0; k < K; ++k) d[k] -= b.d[k];
-    return *this;
-  }
-  [[gnu::always_inline]] Dual& operator*=(const Dual& b) { return *this = *this * b; }
-  [[gnu::always_inline]] Dual& operator/=(const Dual& b) { return *this = *this / b; }
+  Dual& operator+=(const Dual& b) { return *this = *this + b; }
+  Dual& operator-=(const Dual& b) { return *this = *this - b; }
+  Dual& operator*=(const Dual& b) { return *this = *this * b; }
+  Dual& operator/=(const Dual& b) { return *this = *this / b; }
 
   /// f(a) with derivative `slope`.
   [[gnu::always_inline]] static Dual chain(double f, double slope, const Dual& a) {
-    Dual r;
-    r.v = f;
     const D s = static_cast<D>(slope);
-    for (int k = 0; k < K; ++k) r.d[k] = s * a.d[k];
-    return r;
+    return of(f, [&](int k) { return s * a.d[k]; });
   }
 
   [[gnu::always_inline]] friend Dual operator+(const Dual& a, const Dual& b) {
-    Dual r;
-    r.v = a.v + b.v;
-    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + b.d[k];
-    return r;
+    return of(a.v + b.v, [&](int k) { return a.d[k] + b.d[k]; });
   }
   [[gnu::always_inline]] friend Dual operator-(const Dual& a, const Dual& b) {
-    Dual r;
-    r.v = a.v - b.v;
-    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] - b.d[k];
-    return r;
+    return of(a.v - b.v, [&](int k) { return a.d[k] - b.d[k]; });
   }
   [[gnu::always_inline]] friend Dual operator*(const Dual& a, const Dual& b) {
-    Dual r;
-    r.v = a.v * b.v;
     const D x = static_cast<D>(a.v), y = static_cast<D>(b.v);
-    for (int k = 0; k < K; ++k) r.d[k] = x * b.d[k] + y * a.d[k];
-    return r;
+    return of(a.v * b.v, [&](int k) { return x * b.d[k] + y * a.d[k]; });
   }
   [[gnu::always_inline]] friend Dual operator/(const Dual& a, const Dual& b) {
-    Dual r;
-    const double inverse = 1.0 / b.v;
-    r.v = a.v * inverse;
-    const D x = static_cast<D>(r.v), y = static_cast<D>(inverse);
-    for (int k = 0; k < K; ++k) r.d[k] = (a.d[k] - x * b.d[k]) * y;
-    return r;
+    const double inverse = 1.0 / b.v, quotient = a.v * inverse;
+    const D x = static_cast<D>(quotient), y = static_cast<D>(inverse);
+    return of(quotient, [&](int k) { return (a.d[k] - x * b.d[k]) * y; });
   }
   [[gnu::always_inline]] friend Dual operator-(const Dual& a) { return chain(-a.v, -1.0, a); }
   [[gnu::always_inline]] friend Dual operator+(const Dual& a, double b) { return shifted(a, b); }
@@ -106,11 +84,8 @@ struct Dual {
 
   /// a + h b for a constant h: one pass over the derivatives.
   [[gnu::always_inline]] friend Dual sum(const Dual& a, double h, const Dual& b) {
-    Dual r;
-    r.v = a.v + h * b.v;
     const D s = static_cast<D>(h);
-    for (int k = 0; k < K; ++k) r.d[k] = a.d[k] + s * b.d[k];
-    return r;
+    return of(a.v + h * b.v, [&](int k) { return a.d[k] + s * b.d[k]; });
   }
 
   friend Dual sqrt(const Dual& a) {
@@ -126,6 +101,15 @@ struct Dual {
   friend Dual cos(const Dual& a) { return chain(std::cos(a.v), -std::sin(a.v), a); }
 
  private:
+  // Unrolled by order: else GCC keeps the vectors in memory at -O2.
+  template <class Of>
+  [[gnu::always_inline]] static Dual of(double value, Of of_vector) {
+    Dual r;
+    r.v = value;
+#pragma GCC unroll 16
+    for (int k = 0; k < vectors; ++k) r.d[k] = of_vector(k);
+    return r;
+  }
   [[gnu::always_inline]] static Dual shifted(const Dual& a, double b) {
     Dual r = a;
     r.v += b;

@@ -63,6 +63,7 @@ struct ChunkTask {
   double shift = 0.0;              ///< delay of rates and attitude about which the model is linearised, s
   FlightState<double> x0;
   bool jacobian = true;
+  bool products = true;                ///< J'J too; without, leverages only
   bool few_leverages = false;          ///< those of every third sample stand for their neighbours
   bool exact = false;                  ///< slopes in double precision, at twice the cost
   const double* covariance = nullptr;  ///< of the local state, to compute leverages; or nullptr

@@ -3,7 +3,9 @@
 
 namespace ident {
 
-struct IsaAvx2 {};
+struct IsaAvx2 {
+  static constexpr int kBytes = 32;
+};
 
 void evaluate_chunk_avx2(const ChunkTask& task, ChunkResult& result) {
   ChunkKernel<IsaAvx2>::evaluate(task, result);

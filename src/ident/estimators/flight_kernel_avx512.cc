@@ -3,7 +3,9 @@
 
 namespace ident {
 
-struct IsaAvx512 {};
+struct IsaAvx512 {
+  static constexpr int kBytes = 64;
+};
 
 void evaluate_chunk_avx512(const ChunkTask& task, ChunkResult& result) {
   ChunkKernel<IsaAvx512>::evaluate(task, result);

@@ -3,7 +3,9 @@
 
 namespace ident {
 
-struct IsaBaseline {};
+struct IsaBaseline {
+  static constexpr int kBytes = 16;
+};
 
 void evaluate_chunk_baseline(const ChunkTask& task, ChunkResult& result) {
   ChunkKernel<IsaBaseline>::evaluate(task, result);

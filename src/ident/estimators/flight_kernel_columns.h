@@ -23,14 +23,14 @@ struct KernelPlace {
   int at = -1;
 };
 
-/// Lists the columns in packs of eight: those with dual numbers first. Every state gets one; the caller's
+/// Lists the columns: those with dual numbers first, in packs of eight. Every state gets one; the caller's
 /// arrays hold 64 more than there are unknowns.
 template <class Isa>
 struct KernelColumns {
   using Column = KernelColumn<Isa>;
   using Kind = typename Column::Kind;
 
-  int columns = 0, dual_packs = 0, packs = 0;
+  int columns = 0, packs = 0;  ///< packs: of those with dual numbers
 
   KernelColumns(const ChunkTask& task, KernelPlace<Isa>* place, Column* column) {
     const StateLayout& layout = task.layout;
@@ -48,8 +48,8 @@ struct KernelColumns {
         add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
     // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
     // precision.
-    dual_packs = task.exact ? 4 * ((columns + 31) / 32) : 2 * ((columns + 15) / 16);
-    while (columns < 8 * dual_packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
+    packs = task.exact ? 4 * ((columns + 31) / 32) : 2 * ((columns + 15) / 16);
+    while (columns < 8 * packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
     for (int i = 0; i < layout.size; ++i) {
       const Kind kind = kind_of(task, touches, i);
       const int first = kind == Kind::position ? layout.x : kind == Kind::velocity ? layout.v : layout.v_dot;
@@ -58,8 +58,6 @@ struct KernelColumns {
     for (const Seed& seed : task.seeds)
       if (seed.slot >= kParameterCount)
         add({layout.size + seed.direction, seed.slot - kParameterCount, Kind::bias, seed.derivative});
-    packs = (columns + 7) / 8;
-    while (columns < 8 * packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
   }
 
  private:

@@ -32,27 +32,45 @@ class ChunkKernel {
     place_ = table<Place>(static_cast<std::size_t>(d_));
     column_ = table<Column>(static_cast<std::size_t>(d_) + 64);
     const KernelColumns<Isa> list(task_, place_, column_);
-    columns_ = list.columns, dual_packs_ = list.dual_packs, packs_ = list.packs;
+    columns_ = list.columns, packs_ = list.packs;
     for (auto& of_kind : analytic_)
       for (int& i : of_kind) i = -1;
-    for (int i = 8 * dual_packs_; i < columns_; ++i)
-      if (column_[i].external >= 0) analytic_[static_cast<int>(column_[i].kind)][column_[i].axis] = i;
+    for (int i = 8 * packs_; i < columns_; ++i)
+      analytic_[static_cast<int>(column_[i].kind)][column_[i].axis] = i;
   }
 
-  // Packs of types of their own for each instruction set, and aligned on the heap.
-  struct alignas(64) AlignedPack {
-    Pack8 pack;
+  using Vector = typename RowProducts<Isa>::Vector;
+  static constexpr int lanes = RowProducts<Isa>::lanes;
+
+  // Types of their own for each instruction set and use.
+  struct Slopes {
+    Vector vector;
   };
-  struct alignas(64) AlignedCovariance {
-    Pack8 pack;
+  struct Covariance {
+    Vector vector;
   };
-  struct alignas(64) AlignedSum {
-    Pack8 pack;
+  struct Product {
+    Vector vector;
+  };
+  struct CrossProduct {
+    Vector vector;
+  };
+  struct OwnProduct {
+    double sum;
+  };
+  struct OwnCovariance {
+    double value;
+  };
+  /// A row of J, in vectors elsewhere but for the columns without dual numbers.
+  struct Sample {
+    int channel = 0, slopes = 0;
+    int column[3] = {};
+    double slope[3] = {};
   };
 
   void with_jacobian() {
     const std::size_t most = (task_.end - task_.begin + 64) * kChannels;
-    J_ = &table<AlignedPack>(most * static_cast<std::size_t>(packs_))->pack;
+    J_ = &table<Slopes>(most * stride())->vector;
     sample_ = table<Sample>(most);
     out_.cost = 0;
     out_.square = out_.leverage = out_.count = {};
@@ -64,8 +82,8 @@ class ChunkKernel {
     for (double& x : out_.E) x = 0;
     int pack = 0;
     bool first = true;
-    while (pack < dual_packs_) {
-      const int left = dual_packs_ - pack;
+    while (pack < packs_) {
+      const int left = packs_ - pack;
       // Three kinds only: each one is a whole copy of the model in the program.
       if (task_.exact)
         sweep<Dual<4, Isa, double>>(pack, first), pack += 4;
@@ -76,7 +94,7 @@ class ChunkKernel {
       first = false;
     }
     analytic_end();
-    square();
+    if (task_.products) square();
     if (task_.covariance) leverages();
   }
 
@@ -86,7 +104,7 @@ class ChunkKernel {
 
   template <class S>
   void sweep(int pack, bool first) {
-    constexpr int packs = S::width / 8;
+    constexpr int vectors = S::width / lanes;
     const int from = 8 * pack, to = from + S::width;
     EffectMask effects = task_.active;  // those off their null values, and those of this sweep's directions
     S p[kParameterCount], bias[3];
@@ -102,94 +120,149 @@ class ChunkKernel {
     ChunkRun<Isa, S> run(task_, std::span<const S>(p, static_cast<std::size_t>(kParameterCount)), effects,
                          bias);
     std::size_t sample = 0;
-    Pack8 gradient[packs] = {};
+    Vector gradient[vectors] = {};
     const KernelState<Isa> state(task_, place_, column_);
     const FlightState<S> end =
         run(state.template seeded<S>(from, to), [&](std::size_t i, int channel, const S& residual) {
           const double weight = task_.weight[channel], r = residual.v * weight, a = r < 0 ? -r : r;
           // Huber: beyond the bend the row is scaled so that J'J and J'r are those of rho.
           const double bend = a <= task_.huber ? 1.0 : __builtin_sqrt(task_.huber / a);
-          Pack8* row = J_ + sample * static_cast<std::size_t>(packs_) + pack;
-          const double scale = weight * bend;
-          for (int k = 0; k < packs; ++k) row[k] = doubles(residual, k) * scale;
+          Vector* row = J_ + sample * stride() + from / lanes;
+          const double scale = weight * bend, share = r * bend;
+#pragma GCC unroll 16
+          for (int k = 0; k < vectors; ++k) {
+            row[k] = doubles(residual, k) * scale;
+            gradient[k] += row[k] * share;
+          }
           if (first) {
             out_.cost += a <= task_.huber ? r * r : task_.huber * (2 * a - task_.huber);
             count_residual<Isa>(out_, channel, r, task_.huber);
           }
-          for (int k = 0; k < packs; ++k) gradient[k] += row[k] * (r * bend);
           if (first) {
-            sample_[sample] = {channel};
-            analytic(J_ + sample * static_cast<std::size_t>(packs_), channel,
-                     task_.t[i] - task_.t[task_.begin], run.attitude(), scale, r * bend);
+            sample_[sample].channel = channel;
+            analytic(sample_[sample], task_.t[i] - task_.t[task_.begin], run.attitude(), scale, share);
           }
           ++sample;
         });
     samples_ = sample;
     for (int i = from; i < to; ++i)
       if (column_[i].external >= 0)
-        out_.g.data()[column_[i].external] = gradient[(i - from) / 8][(i - from) % 8];
+        out_.g.data()[column_[i].external] = gradient[(i - from) / lanes][(i - from) % lanes];
     state.store_end(end, from, out_.E.data());
     if (first) out_.x_end = state.values(end);
   }
 
-  // Eight derivatives in double precision.
+  // A vector of derivatives in double precision.
   template <class S>
-  static Pack8 doubles(const S& x, int pack) {
-    if constexpr (S::lanes == 8) {
-      return x.d[pack];
+  [[gnu::always_inline]] static Vector doubles(const S& x, int k) {
+    if constexpr (S::lanes == lanes) {
+      return x.d[k];
     } else {
-      using Half = float __attribute__((vector_size(32)));
+      using Half = typename VectorOf<float, Isa::kBytes / 2>::type;
       Half half;
       __builtin_memcpy(&half,
-                       reinterpret_cast<const char*>(&x.d) + static_cast<std::size_t>(pack) * sizeof(Half),
+                       reinterpret_cast<const char*>(&x.d) + static_cast<std::size_t>(k) * sizeof(Half),
                        sizeof(Half));
-      return __builtin_convertvector(half, Pack8);
+      return __builtin_convertvector(half, Vector);
     }
   }
 
   // A = J'J.
   void square() {
-    Pack8* sums = &table<AlignedSum>(static_cast<std::size_t>(8 * PackProducts<Isa>::blocks(packs_)))->pack;
-    PackProducts<Isa>(J_, samples_, packs_).square(sums);
-    const Pack8* sum = sums;
-    for (int bi = 0; bi < packs_; ++bi)
-      for (int bk = 0; bk <= bi; ++bk, sum += 8)
-        for (int i = 0; i < 8; ++i)
-          for (int k = 0; k < 8; ++k) {
-            const int r = column_[8 * bi + i].external, c = column_[8 * bk + k].external;
-            if (r < 0 || c < 0) continue;
-            out_.A.data()[r * d_ + c] = sum[i][k];
-            out_.A.data()[c * d_ + r] = sum[i][k];
-          }
+    const int columns = 8 * packs_;
+    Vector* sums = &table<Product>(static_cast<std::size_t>(columns) * stride())->vector;
+    RowProducts<Isa>(J_, samples_, columns).square(sums);
+    const double* sum = reinterpret_cast<const double*>(sums);
+    for (int i = 0; i < columns; ++i)
+      for (int k = 0; k <= i; ++k) put_product(i, k, sum[i * columns + k]);
+    square_analytic();
+  }
+
+  // The rest of it: products of the columns without dual numbers, of which a sample has three at most.
+  void square_analytic() {
+    const int first = 8 * packs_, count = columns_ - first;
+    Vector* across = &table<CrossProduct>(static_cast<std::size_t>(count) * stride())->vector;
+    double* own = &table<OwnProduct>(static_cast<std::size_t>(count * count))->sum;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count) * stride(); ++i) across[i] = Vector{};
+    for (int i = 0; i < count * count; ++i) own[i] = 0;
+    for (std::size_t s = 0; s < samples_; ++s) {
+      const Sample& sample = sample_[s];
+      const Vector* row = J_ + s * stride();
+      for (int e = 0; e < sample.slopes; ++e) {
+        const int at = sample.column[e] - first;
+        Vector* sum = across + static_cast<std::size_t>(at) * stride();
+        for (std::size_t k = 0; k < stride(); ++k) sum[k] += sample.slope[e] * row[k];
+        for (int f = 0; f <= e; ++f)
+          own[at * count + sample.column[f] - first] += sample.slope[e] * sample.slope[f];
+      }
+    }
+    for (int i = 0; i < count; ++i) {
+      const double* sum = reinterpret_cast<const double*>(across + static_cast<std::size_t>(i) * stride());
+      for (int k = 0; k < first; ++k) put_product(first + i, k, sum[k]);
+      for (int k = 0; k <= i; ++k)  // pairs stand in the order in which a sample has them
+        put_product(first + i, first + k, own[i * count + k] + (i == k ? 0.0 : own[k * count + i]));
+    }
+  }
+
+  void put_product(int i, int k, double product) {
+    const int r = column_[i].external, c = column_[k].external;
+    if (r < 0 || c < 0) return;
+    out_.A.data()[r * d_ + c] = out_.A.data()[c * d_ + r] = product;
   }
 
   // Leverage of each sample with respect to the local state: j P j'. Where a channel has many, every
   // third may stand for its neighbours.
   void leverages() {
     constexpr int kEvery = 3, kMany = 30;
+    constexpr std::size_t kTogether = 16 / lanes;  // sums that do not wait for each other; packs come in twos
     int seen[kChannels] = {}, taken[kChannels] = {};
     double sum_of[kChannels] = {};
-    const auto stride = static_cast<std::size_t>(packs_);
     const int n = task_.layout.size;
-    AlignedCovariance* P = table<AlignedCovariance>(static_cast<std::size_t>(n) * stride);
+    // Covariances of each state with those of dual numbers, in vectors, and with the others.
+    const int first = 8 * packs_, others = columns_ - first;
+    Vector* P = &table<Covariance>(static_cast<std::size_t>(n) * stride())->vector;
+    double* Q = &table<OwnCovariance>(static_cast<std::size_t>(others * others))->value;
+    for (int i = 0; i < others * others; ++i) Q[i] = 0;
     for (int a = 0; a < n; ++a) {
-      Pack8* row = &P[static_cast<std::size_t>(a) * stride].pack;
-      for (std::size_t k = 0; k < stride; ++k) row[k] = Pack8{};
-      for (int b = 0; b < n; ++b) row[place_[b].at / 8][place_[b].at % 8] = task_.covariance[a * n + b];
+      Vector* row = P + static_cast<std::size_t>(a) * stride();
+      for (std::size_t k = 0; k < stride(); ++k) row[k] = Vector{};
+      for (int b = 0; b < n; ++b) {
+        const double covariance = task_.covariance[a * n + b];
+        const int at = place_[a].at - first, with = place_[b].at;
+        if (with < first)
+          row[with / lanes][with % lanes] = covariance;
+        else if (at >= 0)
+          Q[at * others + with - first] = covariance;
+      }
     }
     for (std::size_t s = 0; s < samples_; ++s) {
-      const int c = sample_[s].channel;
+      const Sample& sample = sample_[s];
+      const int c = sample.channel;
       if (task_.few_leverages && out_.count.data()[c] >= kMany && seen[c]++ % kEvery != kEvery / 2) continue;
-      const Pack8* j = J_ + s * stride;
-      Pack8 sum{};
-      for (int a = 0; a < n; ++a) {
-        const double ja = j[place_[a].at / 8][place_[a].at % 8];
-        if (ja == 0) continue;
-        const Pack8* row = &P[static_cast<std::size_t>(a) * stride].pack;
-        for (std::size_t k = 0; k < stride; ++k) sum += (ja * row[k]) * j[k];
-      }
+      const Vector* j = J_ + s * stride();
+      Vector sum[kTogether] = {};
       double total = 0;
-      for (int k = 0; k < 8; ++k) total += sum[k];
+      const auto add = [&](double ja, int a) {
+        const Vector* row = P + static_cast<std::size_t>(a) * stride();
+        for (std::size_t k = 0; k < stride(); k += kTogether)
+#pragma GCC unroll 8
+          for (std::size_t i = 0; i < kTogether; ++i) sum[i] += (ja * row[k + i]) * j[k + i];
+      };
+      for (int a = 0; a < n; ++a) {
+        if (place_[a].at >= first) continue;
+        const double ja = j[place_[a].at / lanes][place_[a].at % lanes];
+        if (ja != 0) add(ja, a);
+      }
+      for (int e = 0; e < sample.slopes; ++e) {
+        const int a = column_[sample.column[e]].external;
+        if (a >= n) continue;  // a bias is no state
+        add(2 * sample.slope[e], a);
+        for (int f = 0; f < sample.slopes; ++f)
+          total += sample.slope[e] * sample.slope[f] *
+                   Q[(sample.column[e] - first) * others + sample.column[f] - first];
+      }
+      for (std::size_t i = 0; i < kTogether; ++i)
+        for (int k = 0; k < lanes; ++k) total += sum[i][k];
       sum_of[c] += total, taken[c] += 1;
     }
     for (int c = 0; c < kChannels; ++c)
@@ -199,14 +272,14 @@ class ChunkKernel {
   // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world
   // frame, and a bias that adds to the rates as shown. `residual`: of this sample, scaled like its row.
   template <class S>
-  void analytic(Pack8* row, int channel, double t, const Vec4<S>& q, double scale, double residual) {
-    for (int k = dual_packs_; k < packs_; ++k) row[k] = Pack8{};
-    const int axis = channel % 3;
+  void analytic(Sample& sample, double t, const Vec4<S>& q, double scale, double residual) {
+    const int channel = sample.channel, axis = channel % 3;
+    sample.slopes = 0;
     const auto put = [&](Kind kind, int of, double slope) {
       const int i = analytic_[static_cast<int>(kind)][of];
       if (i < 0) return;
       const double x = slope * column_[i].derivative * scale;
-      row[i / 8][i % 8] = x;
+      sample.column[sample.slopes] = i, sample.slope[sample.slopes++] = x;
       out_.g.data()[column_[i].external] += x * residual;
     };
     switch (channel - axis) {
@@ -241,9 +314,8 @@ class ChunkKernel {
   void analytic_end() {
     const double h = task_.t[task_.end] - task_.t[task_.begin];
     const StateLayout& layout = task_.layout;
-    for (int i = 8 * dual_packs_; i < columns_; ++i) {
+    for (int i = 8 * packs_; i < columns_; ++i) {
       const Column& column = column_[i];
-      if (column.external < 0) continue;
       const auto end = [&](int component, double derivative) {
         if (component >= 0) out_.E.data()[(component + column.axis) * d_ + column.external] = derivative;
       };
@@ -253,10 +325,6 @@ class ChunkKernel {
     }
   }
 
-  struct Sample {
-    int channel = 0;
-  };
-
   // Memory that stays from chunk to chunk; types of this class, so that no other build shares their code.
   template <class T>
   static T* table(std::size_t size) {
@@ -265,14 +333,16 @@ class ChunkKernel {
     return memory.data();
   }
 
+  std::size_t stride() const { return static_cast<std::size_t>(8 * packs_ / lanes); }  // of J, in vectors
+
   const ChunkTask& task_;
   ChunkResult& out_;
-  int d_, columns_ = 0, dual_packs_ = 0, packs_ = 0;
+  int d_, columns_ = 0, packs_ = 0;
   Place* place_ = nullptr;
   Column* column_ = nullptr;
   int analytic_[5][3];  ///< columns without dual numbers by kind and axis; -1: none
   Sample* sample_ = nullptr;
-  Pack8* J_ = nullptr;
+  Vector* J_ = nullptr;
   std::size_t samples_ = 0;
 };
 

@@ -1,58 +1,69 @@
-// Sums of products of rows of packs: J'J over tiles of samples that stay in the nearest memory.
+// Sums of products of rows of vectors: J'J over tiles of samples that stay in the nearest memory.
 #pragma once
 
 #include "ident/core/dual.h"
 
 namespace ident {
 
-/// Rows of `packs` packs each; templated so that each instruction set has its own.
+/// Rows of `columns` doubles, a multiple of the vector's; templated so that each instruction set has its own.
 template <class Isa>
-class PackProducts {
+class RowProducts {
  public:
-  PackProducts(const Pack8* rows, std::size_t count, int packs) : rows_(rows), count_(count), packs_(packs) {}
+  using Vector = typename VectorOf<double, Isa::kBytes>::type;
+  static constexpr int lanes = Isa::kBytes / 8;
 
-  static int blocks(int packs) { return packs * (packs + 1) / 2; }
+  RowProducts(const Vector* rows, std::size_t count, int columns)
+      : rows_(rows), count_(count), stride_(static_cast<std::size_t>(columns / lanes)), columns_(columns) {}
 
-  /// `sums`: 8 packs for each block (i, k <= i) of 8 x 8, row by row.
-  void square(Pack8* sums) const {
+  /// `sums`: as many rows as columns; what is right of the diagonal's vector stays as it was.
+  void square(Vector* sums) const {
     constexpr std::size_t tile = 32;
-    for (int i = 0; i < 8 * blocks(packs_); ++i) sums[i] = Pack8{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(columns_) * stride_; ++i) sums[i] = Vector{};
     for (std::size_t from = 0; from < count_; from += tile) {
       const std::size_t to = from + tile < count_ ? from + tile : count_;
-      Pack8* sum = sums;
-      for (int i = 0; i < packs_; ++i) {
-        int k = 0;
-        for (; k + 1 <= i; k += 2, sum += 16) add<2>(from, to, i, k, sum);
-        if (k == i) add<1>(from, to, i, k, sum), sum += 8;
+      for (int row = 0; row < columns_; row += kRows) {
+        const int vectors = (row + kRows - 1) / lanes + 1;
+        int at = 0;
+        for (; at + kVectors <= vectors; at += kVectors) add<kVectors>(from, to, row, at, sums);
+        if (vectors - at == 2) add<2>(from, to, row, at, sums);
+        if (vectors - at == 1) add<1>(from, to, row, at, sums);
       }
     }
   }
 
  private:
-  // Products of pack i with the N packs from k on, summed over samples.
+  // Sums that the registers hold: of 32 or 16.
+  static constexpr int kRows = Isa::kBytes == 64 ? 8 : 4, kVectors = Isa::kBytes == 32 ? 3 : 2;
+
+  // Products of kRows columns with the N vectors from `at` on, summed over samples.
   template <int N>
-  void add(std::size_t from, std::size_t to, int i, int k, Pack8* sum) const {
-    const auto stride = static_cast<std::size_t>(packs_);
-    Pack8 s[8 * N];
-#pragma GCC unroll 16
-    for (int j = 0; j < 8 * N; ++j) s[j] = sum[j];
-    for (std::size_t n = from; n < to; ++n) {
-      const Pack8* row = rows_ + n * stride;
-      const double* left = reinterpret_cast<const double*>(row + i);
-#pragma GCC unroll 2
-      for (int m = 0; m < N; ++m) {
-        const Pack8 right = row[k + m];
+  void add(std::size_t from, std::size_t to, int first, int at, Vector* sums) const {
+    Vector s[kRows * N];
+    Vector* sum = sums + static_cast<std::size_t>(first) * stride_ + at;
 #pragma GCC unroll 8
-        for (int j = 0; j < 8; ++j) s[8 * m + j] += left[j] * right;
-      }
+    for (int j = 0; j < kRows; ++j)
+#pragma GCC unroll 4
+      for (int m = 0; m < N; ++m) s[N * j + m] = sum[static_cast<std::size_t>(j) * stride_ + m];
+    for (std::size_t n = from; n < to; ++n) {
+      const Vector* row = rows_ + n * stride_;
+      const double* left = reinterpret_cast<const double*>(row) + first;
+      Vector right[N];
+#pragma GCC unroll 4
+      for (int m = 0; m < N; ++m) right[m] = row[at + m];
+#pragma GCC unroll 8
+      for (int j = 0; j < kRows; ++j)
+#pragma GCC unroll 4
+        for (int m = 0; m < N; ++m) s[N * j + m] += left[j] * right[m];
     }
-#pragma GCC unroll 16
-    for (int j = 0; j < 8 * N; ++j) sum[j] = s[j];
+#pragma GCC unroll 8
+    for (int j = 0; j < kRows; ++j)
+#pragma GCC unroll 4
+      for (int m = 0; m < N; ++m) sum[static_cast<std::size_t>(j) * stride_ + m] = s[N * j + m];
   }
 
-  const Pack8* rows_;
-  std::size_t count_;
-  int packs_;
+  const Vector* rows_;
+  std::size_t count_, stride_;
+  int columns_;
 };
 
 }  // namespace ident

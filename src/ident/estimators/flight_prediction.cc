@@ -66,7 +66,7 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n)
       P(layout.motors + n, layout.motors + n) += noise.q_motor * horizon / 2;
     one.covariance = P.data();
-    one.jacobian = options.floors;
+    one.jacobian = options.floors, one.products = false, one.few_leverages = true;
     ChunkResult result;
     PredictionWindow window;
     if (one.end >= arc.rows()) return window;  // ends before the window does
