@@ -50,6 +50,11 @@ TEST(FlightKernel, LeveragesAddUpToTheTrace) {
           trace += P[static_cast<std::size_t>(i * n + k)] * r.A[static_cast<std::size_t>(k * d + i)];
       for (const double x : r.leverage) sum += x;
       EXPECT_NEAR(sum, trace, to * std::abs(trace)) << isa << (few ? ", few" : "");
+      ChunkTask without = task;
+      without.products = false;
+      ChunkResult alone;
+      evaluate_chunk_with(isa, without, alone);
+      EXPECT_EQ(alone.leverage, r.leverage) << isa;
     }
 }
 

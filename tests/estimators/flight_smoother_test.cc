@@ -200,6 +200,31 @@ TEST(FlightSmoother, TheEndOfALongChainIsKnownAsThatOfAShortOne) {
   EXPECT_LT((of_long.x.body.w_B - of_short.x.body.w_B).cwiseQuotient(std.head<3>()).norm(), 0.02);
 }
 
+// The last step of states is taken without a look at where it leads; where an arc ends moves with it. Here it
+// is the first one, from what was measured.
+TEST(FlightSmoother, TheEndMovesWithTheStepThatIsNotLookedAt) {
+  const Vehicle vehicle = testing::published_vehicle();
+  SimulationOptions options;
+  options.duration = 4.0, options.rate = 100.0, options.turbulence = 0.5;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta none(p, {}, 1, false);
+  const auto end_after = [&](int rounds) {
+    FlightSmoother smoother(record, none, initial_noise(record), 0.1);
+    smoother.set_huber(1e9);
+    smoother.settle(Eigen::VectorXd(0), rounds, 0.0);
+    return std::pair(smoother.arc_ends().at(0), smoother.reduced().fall / smoother.reduced().cost);
+  };
+  const auto [soon, falls] = end_after(1);
+  const auto [late, fell] = end_after(8);
+  const Eigen::VectorXd std = late.P.diagonal().cwiseSqrt();
+  EXPECT_GT(falls, 0.1);
+  EXPECT_LT(fell, 1e-6);
+  EXPECT_LT((soon.x.body.w_B - late.x.body.w_B).cwiseQuotient(std.head<3>()).norm(), 0.1);
+  EXPECT_LT((soon.x.body.v_W - late.x.body.v_W).cwiseQuotient(std.segment<3>(record.layout.v)).norm(), 0.1);
+}
+
 // The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew
 // on the way there.
 TEST(FlightSmoother, NoiseIsTheSameWithTheSharedUnknownsHeldForSomeRounds) {

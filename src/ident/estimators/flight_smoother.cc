@@ -240,24 +240,23 @@ void FlightSmoother::accept() {
 }
 
 void FlightSmoother::settle(const VectorXd& u, int rounds, double enough) {
-  double before = 0;
   for (int i = 0; i < rounds; ++i) {
-    const double cost = linearize(u).cost;
+    const ReducedSystem& system = linearize(u);
     accept();
-    if (i > 0 && std::abs(before - cost) < enough * cost) return;
-    before = cost;
+    if (system.fall < enough * system.cost) return;
   }
 }
 
 std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
   const int n = record_->layout.size;
+  const std::vector<VectorXd> dx = state_steps(accepted(), VectorXd::Zero(theta_->size()));
   std::vector<End> ends;
   for (const Chain& chain : chains_) {
     const std::size_t last = chain.end - 1;
     if (chain.meet != last) posterior_covariances(accepted());
     const MatrixXd P = chain.meet == last ? own_covariance(accepted(), last) : accepted().P[last];
     const MatrixXd E = chunk::E(results_[last], n).leftCols(n);
-    ends.push_back({results_[last].x_end, E * P.leftCols(n) * E.transpose()});
+    ends.push_back({moved(results_[last].x_end, E * dx[last]), E * P.leftCols(n) * E.transpose()});
   }
   return ends;
 }

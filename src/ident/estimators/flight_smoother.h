@@ -34,6 +34,7 @@ struct ChunkPlace {
 /// Normal equations of the shared unknowns after elimination: cost(u + du) ~ cost + 2 g'du + du'S du.
 struct ReducedSystem {
   double cost = 0.0;  ///< at the best states for u, to second order
+  double fall = 0.0;  ///< to that from the cost of the states as they are
   Eigen::VectorXd g;
   Eigen::MatrixXd S;
   double log_det = 0.0;  ///< of the states' information, over that of the links and of what precedes an arc
@@ -76,8 +77,8 @@ class FlightSmoother {
   bool stands_at(const Eigen::VectorXd& u) const { return stands_ && u == trial_u_; }
   /// Makes the last linearisation the one from which states are predicted from now on.
   void accept();
-  /// Moves the states to their best for u (`rounds` Gauss-Newton steps, fewer where one has changed less than
-  /// that share of the cost) and accepts.
+  /// Moves the states to their best for u (`rounds` Gauss-Newton steps, fewer where the next one would change
+  /// less than that share of the cost) and accepts.
   void settle(const Eigen::VectorXd& u, int rounds = 2, double enough = 1e-4);
 
   /// Takes over states, from a smoother with the same chunks.
@@ -136,7 +137,7 @@ class FlightSmoother {
   };
   Along along(const Eigen::VectorXd& du);
 
-  /// State at the last row of each arc, from all data before it, with its covariance, at the accepted
+  /// State at the last row of each arc, from all data before it, with its covariance, by the accepted
   /// linearisation.
   struct End {
     FlightState<double> x;

@@ -56,7 +56,7 @@ struct FlightSmoother::Sweep {
   Matrix U;          // over the state that is next in the sweep
   Matrix solved;     // [U | B f], then L^-1 of it, then D^-1 of it
   Matrix sum;        // [S g]
-  double cost = 0.0, log_det = 0.0;
+  double cost = 0.0, fall = 0.0, log_det = 0.0;
 };
 
 // Damping only for states that nothing at all determines, those whose pivot is lost to rounding: of any other
@@ -159,7 +159,7 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
   at.solved.middleCols(from, at.shared) = at.own.rightCols(at.shared);
   dense.forward(rows_in(L), n, rows_of(at.solved), right);
   dense.add_products(rows_of(at.sum), solved(from), m, solved(from), at.shared, n, -1.0);
-  at.cost -= at.solved.col(from + m).squaredNorm();
+  at.fall += at.solved.col(from + m).squaredNorm();
   if (linked) dense.add_products(rows_of(at.next), solved(0), n, solved(0), right, n, -1.0);
   dense.backward(rows_in(L), n, rows_of(at.solved), right);
   if (linked) {
@@ -202,17 +202,17 @@ void FlightSmoother::eliminate(const VectorXd* held) {
     const int all = static_cast<int>(shared());
     if (!at) at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : all, all);
     if (other) at->next += other->next, at->sum += other->sum;
-    if (other) at->cost += other->cost, at->log_det += other->log_det;
+    if (other) at->cost += other->cost, at->fall += other->fall, at->log_det += other->log_det;
     add_rows(chains_[c].meet, *at, held);
     eliminate_chunk(chains_[c].meet, *at, false);
-    parts[c] = {at->cost, at->g(), at->S(), at->log_det};
+    parts[c] = {at->cost - at->fall, at->fall, at->g(), at->S(), at->log_det};
     ends[c] = {};
   });
   if (held) return;
-  reduced_ = {0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared()), 0.0};
+  reduced_ = {0.0, 0.0, VectorXd::Zero(shared()), MatrixXd::Zero(shared(), shared()), 0.0};
   for (const ReducedSystem& part : parts) {
-    reduced_.cost += part.cost, reduced_.g += part.g, reduced_.S += part.S;
-    reduced_.log_det += part.log_det;
+    reduced_.cost += part.cost, reduced_.fall += part.fall, reduced_.log_det += part.log_det;
+    reduced_.g += part.g, reduced_.S += part.S;
   }
   reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
 }
