@@ -41,6 +41,9 @@ TEST(AgainstNaming, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidS
   c.closes({0.1, 0.9}, 0.4);  // gusts may hide it
   EXPECT_EQ(c.judged().status, "identified");
   c.closes({0.1, 0.6}, 0.4);
+  c.gap.after = 1.1 * c.gap.floor;  // as little as a floor is known to
+  EXPECT_EQ(c.judged().status, "identified");
+  c.gap.after = 1.2 * c.gap.floor;
   EXPECT_EQ(c.judged().status, "unknown");
 }
 

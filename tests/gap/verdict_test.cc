@@ -14,6 +14,7 @@ TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   EXPECT_EQ(c.judged().status, "none");
   EXPECT_NE(c.judged().sentence.find("its constants refitted"), std::string::npos);
   c.closes({0.0, 0.3}, 0.1);
+  c.gap.after = c.gap.floor;  // nor was there much before
   EXPECT_EQ(c.judged().sentence, "The model explains these logs down to the noise; no cause stands out.");
   c.gap.after = 1.3 * c.gap.floor;
   EXPECT_EQ(c.judged().sentence,

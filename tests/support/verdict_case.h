@@ -1,6 +1,7 @@
 // What a search found, made by hand, and the verdict on it.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,10 @@ struct VerdictCase {
     }
     closes({0.9, 1.0}, 0.97);
   }
-  void closes(std::array<double, 2> ci95, double closed) { gap = {closed, ci95, 10.0, 1.1, 1.0}; }
+  /// So much of what was ten times the floor.
+  void closes(std::array<double, 2> ci95, double closed) {
+    gap = {closed, ci95, 10.0, std::sqrt(1.0 + (1 - closed) * 99.0), 1.0};
+  }
   void weighs(const std::vector<int>& members, double probability) {
     search.sets.push_back({members, 0.0, probability});
   }

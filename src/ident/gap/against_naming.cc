@@ -18,6 +18,9 @@ namespace {
 constexpr double kMostlyClosed = 0.5;
 constexpr double kPerhapsClosed = 0.75;  // unless so much lies within the 95 % interval,
 constexpr double kHardlyClosed = 0.3;    // and this much is closed; of 400 named none closed less than 0.55
+// What is left is a gap beyond this only: of flights without effect one in ten misses its floor by a tenth
+// and more. A cause may be plain in every sample of a rate and hardly matter to a prediction.
+constexpr double kFloorKnown = 1.15;
 // What a generic rival may gain on held-out flight beside causes; the first where they explain no more than
 // that. Beside causes whose own form is never quite that of the real thing, a share of what they explain.
 constexpr double kRivalLeast = 45.0;
@@ -223,7 +226,7 @@ bool weightless_payload(const SearchResult& search, const std::vector<Parameter>
 std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
                            const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
                            const std::vector<Parameter>& fitted) {
-  if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed &&
+  if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed && gap.after > kFloorKnown * gap.floor &&
       !(gap.closed > kHardlyClosed && gap.ci95[1] > kPerhapsClosed))
     return "most of the gap remains with it";
   if (is_predicted(search, rival))
