@@ -72,7 +72,7 @@ std::vector<S> seen(const std::vector<S>& p, EffectMask mask, FlightState<S> x, 
   Flight<S, Effects> flight(vehicle, std::span<const S>(p), effects, in);
   double t = 5.0013;  // not on a sample of the command, where the derivative by a delay has a step
   for (int i = 0; i < steps; ++i, t += 0.004) x = flight.step(x, t, 0.004, flight.rate(x, t));
-  const SensorSeam<S> imu = flight.imu(x.body, flight.rate(x, t));
+  const SensorSeam<S> imu = flight.imu(x.body.w_B, flight.rate(x, t));
   std::vector<S> all(x.body.q_WB.data(), x.body.q_WB.data() + 4);
   for (const Vec3<S>& v : {x.body.w_B, x.body.v_W, x.body.x_W, imu.f_B, imu.gyro})
     all.insert(all.end(), v.data(), v.data() + 3);

@@ -116,6 +116,6 @@ void Plant::advance(double t, double longest_step) {
 double Plant::t() const { return model_->t; }
 const FlightState<double>& Plant::state() const { return model_->x; }
 BodyRate<double> Plant::rate() const { return model_->flight->rate(model_->x, model_->t); }
-SensorSeam<double> Plant::imu() const { return model_->flight->imu(model_->x.body, rate()); }
+SensorSeam<double> Plant::imu() const { return model_->flight->imu(model_->x.body.w_B, rate()); }
 
 }  // namespace ident

@@ -30,7 +30,7 @@ struct Stand::Model {
   EffectSet<double> effects;
   FlightInputs inputs;
   std::optional<Flight<double, EffectSet<double>>> flight;
-  std::array<MotorState<double>, kMaxRotors> motors;
+  std::array<MotorState<double>, kMaxRotors> motors{};
   std::deque<double> arrivals;  // times at which a new command reaches the motor
   double t = 0.0, delay = 0.0;
 

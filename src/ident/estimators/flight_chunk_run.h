@@ -41,7 +41,7 @@ class ChunkRun {
     std::size_t delayed_row = first_delayed_row();
     for (std::size_t i = task_.begin; i < last; ++i) {
       prompt_channels(i, x, rate, sink);
-      if (task_.shift == 0) delayed_channels(i, x.body.w_B, rate.w_dot_B, x.body.q_WB, sink, x, rate);
+      if (task_.shift == 0) delayed_channels(i, x.body.w_B, rate.w_dot_B, x.body.q_WB, sink, rate);
       const int parts = 1 + static_cast<int>((t[i + 1] - t[i]) / task_.max_step);
       const double h = (t[i + 1] - t[i]) / parts;
       for (int part = 0; part < parts; ++part) {
@@ -85,7 +85,7 @@ class ChunkRun {
   template <class Sink>
   void prompt_channels(std::size_t i, const FlightState<S>& x, const BodyRate<S>& rate, Sink& sink) {
     if (sampled(i, kForce) || sampled(i, kForce + 2)) {
-      const SensorSeam<S> imu = flight_.imu(x.body, rate);
+      const SensorSeam<S> imu = flight_.imu(x.body.w_B, rate);
       for (int k = 0; k < 3; ++k)
         if (sampled(i, kForce + k)) sink(i, kForce + k, S(imu.f_B[k] - y(i, kForce + k)));
     }
@@ -102,22 +102,21 @@ class ChunkRun {
   // Rates and attitude, which a sensor delay shifts: first order about `shift`.
   template <class Sink>
   void delayed_channels(std::size_t row, const Vec3<S>& w, const Vec3<S>& w_dot, const Vec4<S>& q, Sink& sink,
-                        const FlightState<S>& x, const BodyRate<S>& rate) {
+                        const BodyRate<S>& rate) {
     if (sampled(row, kGyro) || sampled(row, kGyro + 1) || sampled(row, kGyro + 2)) {
-      BodyState<S> then = x.body;
-      then.w_B = w;
-      if (delayed_) then.w_B -= delay_beyond_ * w_dot;
-      const SensorSeam<S> imu = flight_.imu(then, rate);
+      const SensorSeam<S> imu = flight_.imu(delayed_ ? Vec3<S>(w - delay_beyond_ * w_dot) : w, rate);
       for (int k = 0; k < 3; ++k)
         if (sampled(row, kGyro + k)) sink(row, kGyro + k, S(imu.gyro[k] + bias_[k] - y(row, kGyro + k)));
     }
     if (sampled(row, kAttitude) && task_.layout.attitude >= 0) {
       const double* m = task_.q + 4 * row;
-      const Vec4<double> inverse(m[0], -m[1], -m[2], -m[3]);
-      Vec4<S> d = quaternion_product(inverse, q);
-      const double sign = value(d[0]) < 0 ? -2.0 : 2.0;
+      // d = conjugate(m) * q, of which the turn is twice the vector.
+      const double d0 = m[0] * value(q[0]) + m[1] * value(q[1]) + m[2] * value(q[2]) + m[3] * value(q[3]);
+      const double twice = d0 < 0 ? -2.0 : 2.0;
       for (int k = 0; k < 3; ++k) {
-        S turn = sign * d[1 + k];
+        const int own = 1 + k, next = 1 + (k + 1) % 3, last = 1 + (k + 2) % 3;
+        S turn = sum(sum(sum(S((twice * m[0]) * q[own]), -twice * m[own], q[0]), -twice * m[next], q[last]),
+                     twice * m[last], q[next]);
         if (delayed_) turn = turn - delay_beyond_ * w[k];
         sink(row, kAttitude + k, turn);
       }
@@ -134,7 +133,7 @@ class ChunkRun {
     const Vec3<S> w = h00 * a.body.w_B + h01 * b.body.w_B + h10 * ra.w_dot_B + h11 * rb.w_dot_B;
     const Vec3<S> w_dot = (1 - u) * ra.w_dot_B + u * rb.w_dot_B;
     const Vec4<S> q = h00 * a.body.q_WB + h01 * b.body.q_WB + h10 * ra.q_dot + h11 * rb.q_dot;
-    delayed_channels(row, w, w_dot, q, sink, a, ra);
+    delayed_channels(row, w, w_dot, q, sink, ra);
   }
 
   const ChunkTask& task_;

@@ -30,7 +30,7 @@ struct FlightInputs {
 template <class S>
 struct FlightState {
   BodyState<S> body;
-  std::array<MotorState<S>, kMaxRotors> motors;
+  std::array<MotorState<S>, kMaxRotors> motors{};
   Disturbance<S> outside;
 };
 
@@ -64,7 +64,7 @@ class Flight {
 
   /// Moves a state h seconds on; `rate` is that at its start, and then that at its end.
   void step_on(FlightState<S>& x, double t, double h, BodyRate<S>& rate) {
-    std::array<MotorState<S>, kMaxRotors> middle;
+    std::array<MotorState<S>, kMaxRotors> middle;  // of those that the vehicle has
     advance_motors(x.motors, t, h / 2, middle);
     advance_motors(middle, t + h / 2, h / 2, x.motors);
     const std::span<const MotorState<S>> mid(middle.data(), rotors_), end(x.motors.data(), rotors_);
@@ -99,9 +99,9 @@ class Flight {
     advance_motors(from, t, h, motors);
   }
 
-  /// What the IMU shows at a state with that rate; gyro bias is added by the caller.
-  SensorSeam<S> imu(const BodyState<S>& state, const BodyRate<S>& rate) const {
-    SensorSeam<S> seam{state.w_B, rate.w_dot_B, rate.f_B, state.w_B};
+  /// What the IMU shows at a body rate with that rate of change; gyro bias is added by the caller.
+  SensorSeam<S> imu(const Vec3<S>& w_B, const BodyRate<S>& rate) const {
+    SensorSeam<S> seam{w_B, rate.w_dot_B, rate.f_B, w_B};
     effects_->apply(seam);
     return seam;
   }
@@ -182,7 +182,7 @@ class Flight {
     const auto set = [&](const auto& line) {
       goal.mean = p_[param::Omega_0] + line.mean * p_[param::km];
       goal.bent = line.bent;
-      goal.slope = line.bent ? S(line.slope * p_[param::km]) : S(0.0);
+      if (line.bent) goal.slope = line.slope * p_[param::km];
     };
     if (constant_delay_)
       set(command.template line<S>(t, t + h, value(delays_.command_delay)));
@@ -192,7 +192,8 @@ class Flight {
     DriveSeam<S> drive{t - inputs_->t0, 1.0, !inputs_->voltage_ratio.empty(), S(1.0), S(1.0)};
     if (drive.has_voltage) drive.voltage_ratio = interpolated(inputs_->voltage_ratio, t + h / 2);
     effects_->apply(drive);
-    goal.mean = goal.mean * drive.gain, goal.slope = goal.slope * drive.gain;
+    goal.mean = goal.mean * drive.gain;
+    if (goal.bent) goal.slope = goal.slope * drive.gain;
     return goal;
   }
 

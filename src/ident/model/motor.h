@@ -21,7 +21,7 @@ namespace ident {
 /// Rotor speed, rad/s, and its rate, rad/s^2.
 template <class S>
 struct MotorState {
-  S Omega{}, Omega_dot{};
+  S Omega, Omega_dot;
 };
 
 /// exp(A h): carries the deviation from the target over a step.
@@ -96,8 +96,8 @@ std::size_t row_before(const double* t, std::size_t n, double at) {
 /// A command over a step: the straight line with the same mean and the same first moment.
 template <class S>
 struct CommandLine {
-  S mean{}, slope{};
-  bool bent = false;  ///< the command changes within the step; else the slope is 0
+  S mean, slope;      ///< the slope only of a bent one
+  bool bent = false;  ///< the command changes within the step
 };
 
 /// A command history held from each sample to the next; answers the line that stands for it over an interval.
