@@ -8,7 +8,7 @@
 
 #include "ident/estimators/flight_chunk_run.h"
 #include "ident/estimators/flight_kernel_columns.h"
-#include "ident/estimators/flight_kernel_products.h"
+#include "ident/estimators/flight_kernel_rows.h"
 #include "ident/estimators/flight_kernel_state.h"
 
 namespace ident {
@@ -29,8 +29,8 @@ class ChunkKernel {
   using Place = KernelPlace<Isa>;
 
   void list_columns() {
-    place_ = table<Place>(static_cast<std::size_t>(d_));
-    column_ = table<Column>(static_cast<std::size_t>(d_) + 64);
+    place_ = kernel_table<Isa, Place>(static_cast<std::size_t>(d_));
+    column_ = kernel_table<Isa, Column>(static_cast<std::size_t>(d_) + 64);
     const KernelColumns<Isa> list(task_, place_, column_);
     columns_ = list.columns, packs_ = list.packs;
     for (auto& of_kind : analytic_)
@@ -39,42 +39,16 @@ class ChunkKernel {
       analytic_[static_cast<int>(column_[i].kind)][column_[i].axis] = i;
   }
 
-  using Vector = typename RowProducts<Isa>::Vector;
-  static constexpr int lanes = RowProducts<Isa>::lanes;
-
-  // Types of their own for each instruction set and use.
-  struct Slopes {
-    Vector vector;
-  };
-  struct Covariance {
-    Vector vector;
-  };
-  struct Product {
-    Vector vector;
-  };
-  struct CrossProduct {
-    Vector vector;
-  };
-  struct OwnProduct {
-    double sum;
-  };
-  struct OwnCovariance {
-    double value;
-  };
-  /// A row of J, in vectors elsewhere but for the columns without dual numbers.
-  struct Sample {
-    int channel = 0, slopes = 0;
-    int column[3] = {};
-    double slope[3] = {};
-  };
+  using Rows = KernelRows<Isa>;
+  using Row = typename Rows::Row;
+  using Vector = typename Rows::Vector;
+  static constexpr int lanes = Rows::lanes;
 
   void with_jacobian() {
     const std::size_t most = (task_.end - task_.begin + 64) * kChannels;
-    J_ = &table<Slopes>(most * stride())->vector;
-    sample_ = table<Sample>(most);
+    Rows rows(task_, {place_, column_, columns_, packs_}, most);
     out_.cost = 0;
     out_.square = out_.leverage = out_.count = {};
-    samples_ = 0;
     const std::size_t n = static_cast<std::size_t>(task_.layout.size), d = static_cast<std::size_t>(d_);
     resize(out_.A, d * d), resize(out_.g, d), resize(out_.E, n * d);
     for (double& x : out_.A) x = 0;
@@ -86,16 +60,16 @@ class ChunkKernel {
       const int left = packs_ - pack;
       // Three kinds only: each one is a whole copy of the model in the program.
       if (task_.exact)
-        sweep<Dual<4, Isa, double>>(pack, first), pack += 4;
+        sweep<Dual<4, Isa, double>>(pack, first, rows), pack += 4;
       else if (left >= 4)
-        sweep<Dual<2, Isa, float>>(pack, first), pack += 4;
+        sweep<Dual<2, Isa, float>>(pack, first, rows), pack += 4;
       else
-        sweep<Dual<1, Isa, float>>(pack, first), pack += 2;
+        sweep<Dual<1, Isa, float>>(pack, first, rows), pack += 2;
       first = false;
     }
     analytic_end();
-    if (task_.products) square();
-    if (task_.covariance) leverages();
+    if (task_.products) rows.square(out_);
+    if (task_.covariance) rows.leverages(out_);
   }
 
   static void resize(std::vector<double>& v, std::size_t n) {
@@ -103,7 +77,7 @@ class ChunkKernel {
   }
 
   template <class S>
-  void sweep(int pack, bool first) {
+  void sweep(int pack, bool first, Rows& rows) {
     constexpr int vectors = S::width / lanes;
     const int from = 8 * pack, to = from + S::width;
     EffectMask effects = task_.active;  // those off their null values, and those of this sweep's directions
@@ -119,7 +93,7 @@ class ChunkKernel {
     }
     ChunkRun<Isa, S> run(task_, std::span<const S>(p, static_cast<std::size_t>(kParameterCount)), effects,
                          bias);
-    std::size_t sample = 0;
+    rows.count = 0;
     Vector gradient[vectors] = {};
     const KernelState<Isa> state(task_, place_, column_);
     const FlightState<S> end =
@@ -127,7 +101,7 @@ class ChunkKernel {
           const double weight = task_.weight[channel], r = residual.v * weight, a = r < 0 ? -r : r;
           // Huber: beyond the bend the row is scaled so that J'J and J'r are those of rho.
           const double bend = a <= task_.huber ? 1.0 : __builtin_sqrt(task_.huber / a);
-          Vector* row = J_ + sample * stride() + from / lanes;
+          Vector* row = rows.slopes(rows.count) + from / lanes;
           const double scale = weight * bend, share = r * bend;
 #pragma GCC unroll 16
           for (int k = 0; k < vectors; ++k) {
@@ -137,14 +111,12 @@ class ChunkKernel {
           if (first) {
             out_.cost += a <= task_.huber ? r * r : task_.huber * (2 * a - task_.huber);
             count_residual<Isa>(out_, channel, r, task_.huber);
+            Row& others = rows.row(rows.count);
+            others.channel = channel;
+            analytic(others, task_.t[i] - task_.t[task_.begin], run.attitude(), scale, share);
           }
-          if (first) {
-            sample_[sample].channel = channel;
-            analytic(sample_[sample], task_.t[i] - task_.t[task_.begin], run.attitude(), scale, share);
-          }
-          ++sample;
+          ++rows.count;
         });
-    samples_ = sample;
     for (int i = from; i < to; ++i)
       if (column_[i].external >= 0)
         out_.g.data()[column_[i].external] = gradient[(i - from) / lanes][(i - from) % lanes];
@@ -167,119 +139,17 @@ class ChunkKernel {
     }
   }
 
-  // A = J'J.
-  void square() {
-    const int columns = 8 * packs_;
-    Vector* sums = &table<Product>(static_cast<std::size_t>(columns) * stride())->vector;
-    RowProducts<Isa>(J_, samples_, columns).square(sums);
-    const double* sum = reinterpret_cast<const double*>(sums);
-    for (int i = 0; i < columns; ++i)
-      for (int k = 0; k <= i; ++k) put_product(i, k, sum[i * columns + k]);
-    square_analytic();
-  }
-
-  // The rest of it: products of the columns without dual numbers, of which a sample has three at most.
-  void square_analytic() {
-    const int first = 8 * packs_, count = columns_ - first;
-    Vector* across = &table<CrossProduct>(static_cast<std::size_t>(count) * stride())->vector;
-    double* own = &table<OwnProduct>(static_cast<std::size_t>(count * count))->sum;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count) * stride(); ++i) across[i] = Vector{};
-    for (int i = 0; i < count * count; ++i) own[i] = 0;
-    for (std::size_t s = 0; s < samples_; ++s) {
-      const Sample& sample = sample_[s];
-      const Vector* row = J_ + s * stride();
-      for (int e = 0; e < sample.slopes; ++e) {
-        const int at = sample.column[e] - first;
-        Vector* sum = across + static_cast<std::size_t>(at) * stride();
-        for (std::size_t k = 0; k < stride(); ++k) sum[k] += sample.slope[e] * row[k];
-        for (int f = 0; f <= e; ++f)
-          own[at * count + sample.column[f] - first] += sample.slope[e] * sample.slope[f];
-      }
-    }
-    for (int i = 0; i < count; ++i) {
-      const double* sum = reinterpret_cast<const double*>(across + static_cast<std::size_t>(i) * stride());
-      for (int k = 0; k < first; ++k) put_product(first + i, k, sum[k]);
-      for (int k = 0; k <= i; ++k)  // pairs stand in the order in which a sample has them
-        put_product(first + i, first + k, own[i * count + k] + (i == k ? 0.0 : own[k * count + i]));
-    }
-  }
-
-  void put_product(int i, int k, double product) {
-    const int r = column_[i].external, c = column_[k].external;
-    if (r < 0 || c < 0) return;
-    out_.A.data()[r * d_ + c] = out_.A.data()[c * d_ + r] = product;
-  }
-
-  // Leverage of each sample with respect to the local state: j P j'. Where a channel has many, every
-  // third may stand for its neighbours.
-  void leverages() {
-    constexpr int kEvery = 3, kMany = 30;
-    constexpr std::size_t kTogether = 16 / lanes;  // sums that do not wait for each other; packs come in twos
-    int seen[kChannels] = {}, taken[kChannels] = {};
-    double sum_of[kChannels] = {};
-    const int n = task_.layout.size;
-    // Covariances of each state with those of dual numbers, in vectors, and with the others.
-    const int first = 8 * packs_, others = columns_ - first;
-    Vector* P = &table<Covariance>(static_cast<std::size_t>(n) * stride())->vector;
-    double* Q = &table<OwnCovariance>(static_cast<std::size_t>(others * others))->value;
-    for (int i = 0; i < others * others; ++i) Q[i] = 0;
-    for (int a = 0; a < n; ++a) {
-      Vector* row = P + static_cast<std::size_t>(a) * stride();
-      for (std::size_t k = 0; k < stride(); ++k) row[k] = Vector{};
-      for (int b = 0; b < n; ++b) {
-        const double covariance = task_.covariance[a * n + b];
-        const int at = place_[a].at - first, with = place_[b].at;
-        if (with < first)
-          row[with / lanes][with % lanes] = covariance;
-        else if (at >= 0)
-          Q[at * others + with - first] = covariance;
-      }
-    }
-    for (std::size_t s = 0; s < samples_; ++s) {
-      const Sample& sample = sample_[s];
-      const int c = sample.channel;
-      if (task_.few_leverages && out_.count.data()[c] >= kMany && seen[c]++ % kEvery != kEvery / 2) continue;
-      const Vector* j = J_ + s * stride();
-      Vector sum[kTogether] = {};
-      double total = 0;
-      const auto add = [&](double ja, int a) {
-        const Vector* row = P + static_cast<std::size_t>(a) * stride();
-        for (std::size_t k = 0; k < stride(); k += kTogether)
-#pragma GCC unroll 8
-          for (std::size_t i = 0; i < kTogether; ++i) sum[i] += (ja * row[k + i]) * j[k + i];
-      };
-      for (int a = 0; a < n; ++a) {
-        if (place_[a].at >= first) continue;
-        const double ja = j[place_[a].at / lanes][place_[a].at % lanes];
-        if (ja != 0) add(ja, a);
-      }
-      for (int e = 0; e < sample.slopes; ++e) {
-        const int a = column_[sample.column[e]].external;
-        if (a >= n) continue;  // a bias is no state
-        add(2 * sample.slope[e], a);
-        for (int f = 0; f < sample.slopes; ++f)
-          total += sample.slope[e] * sample.slope[f] *
-                   Q[(sample.column[e] - first) * others + sample.column[f] - first];
-      }
-      for (std::size_t i = 0; i < kTogether; ++i)
-        for (int k = 0; k < lanes; ++k) total += sum[i][k];
-      sum_of[c] += total, taken[c] += 1;
-    }
-    for (int c = 0; c < kChannels; ++c)
-      if (taken[c] > 0) out_.leverage.data()[c] += sum_of[c] * (out_.count.data()[c] / taken[c]);
-  }
-
   // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world
   // frame, and a bias that adds to the rates as shown. `residual`: of this sample, scaled like its row.
   template <class S>
-  void analytic(Sample& sample, double t, const Vec4<S>& q, double scale, double residual) {
-    const int channel = sample.channel, axis = channel % 3;
-    sample.slopes = 0;
+  void analytic(Row& row, double t, const Vec4<S>& q, double scale, double residual) {
+    const int channel = row.channel, axis = channel % 3;
+    row.others = 0;
     const auto put = [&](Kind kind, int of, double slope) {
       const int i = analytic_[static_cast<int>(kind)][of];
       if (i < 0) return;
       const double x = slope * column_[i].derivative * scale;
-      sample.column[sample.slopes] = i, sample.slope[sample.slopes++] = x;
+      row.column[row.others] = i, row.slope[row.others++] = x;
       out_.g.data()[column_[i].external] += x * residual;
     };
     switch (channel - axis) {
@@ -325,25 +195,12 @@ class ChunkKernel {
     }
   }
 
-  // Memory that stays from chunk to chunk; types of this class, so that no other build shares their code.
-  template <class T>
-  static T* table(std::size_t size) {
-    thread_local std::vector<T> memory;
-    if (memory.size() < size) memory = std::vector<T>(size + size / 2);
-    return memory.data();
-  }
-
-  std::size_t stride() const { return static_cast<std::size_t>(8 * packs_ / lanes); }  // of J, in vectors
-
   const ChunkTask& task_;
   ChunkResult& out_;
   int d_, columns_ = 0, packs_ = 0;
   Place* place_ = nullptr;
   Column* column_ = nullptr;
   int analytic_[5][3];  ///< columns without dual numbers by kind and axis; -1: none
-  Sample* sample_ = nullptr;
-  Vector* J_ = nullptr;
-  std::size_t samples_ = 0;
 };
 
 }  // namespace ident
