@@ -1,6 +1,8 @@
 // Reads the logs and the vehicle of a flight command.
 #include "flight_input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,21 +67,35 @@ void refuse_twice(const std::vector<FlightLog>& logs) {
       throw UsageError(last.file + " holds the same flight as " + log.file + ": give each flight once");
 }
 
+std::string map_of(const FlightOptions& options, std::size_t file) {
+  if (options.maps.empty()) return {};
+  if (options.maps.size() == 1) return options.maps.front();
+  if (options.maps.size() != options.files.size())
+    throw UsageError(
+        fmt::format("--map is given {} times for {} log{}: one map for all of them, or one for each",
+                    options.maps.size(), options.files.size(), options.files.size() == 1 ? "" : "s"));
+  return options.maps[file];
+}
+
 }  // namespace
 
 void add_flight_options(CLI::App& cli, FlightOptions& options) {
   cli.add_option("LOG", options.files, "flight logs (CSV); none: those of ident.yaml")->type_name("LOG");
   cli.add_option("--vehicle", options.vehicle, "vehicle file; none: that of ident.yaml")->type_name("FILE");
   cli.add_option("--params", options.params, "parameter file, laid over the vehicle file")->type_name("FILE");
-  cli.add_option("--map", options.map, "which column is which signal, in which unit and frame")
-      ->type_name("FILE");
+  cli.add_option("--map", options.maps,
+                 "which column is which signal, in which unit and frame; given once, or once for each log")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 FlightInput flight_input(const FlightOptions& options, Model model, Context& context) {
   FlightInput input;
   const std::optional<Campaign> campaign = find_campaign();
   std::vector<CampaignLog> logs;
-  for (const std::string& file : options.files) logs.push_back({file, options.map});
+  for (const std::string& file : options.files) logs.push_back({file, map_of(options, logs.size())});
+  if (logs.empty() && !options.maps.empty())
+    throw UsageError("--map is for the logs that stand beside it: those of ident.yaml name theirs there");
   if (logs.empty() && campaign) {
     logs = campaign->logs;
     input.campaign = campaign;

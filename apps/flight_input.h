@@ -12,8 +12,8 @@
 namespace ident::app {
 
 struct FlightOptions {
-  std::vector<std::string> files;
-  std::string vehicle, params, map;
+  std::vector<std::string> files, maps;  ///< one map for all of the files, or one for each
+  std::string vehicle, params;
 };
 
 void add_flight_options(CLI::App& cli, FlightOptions& options);
