@@ -146,6 +146,17 @@ TEST(Diagnosis, AStrongBatterySagIsFoundThoughItsFirstStepIsBeyondPhysics) {
       << found.result.extra["verdict"];
 }
 
+// A sensor half a metre off a vehicle of half that size is none: something else moves it so, which is
+// unknown.
+TEST(Diagnosis, ACauseOfASizeThatNoSuchVehicleHasIsNotNamed) {
+  Vehicle truth = published_vehicle();
+  const Vehicle model = truth;
+  truth.parameters["imu_lever_arm.x"] = {0.5, {}};
+  const auto verdict = verdict_of(model, flight_of(truth, 11));
+  EXPECT_EQ(verdict["status"], "unknown") << verdict;
+  EXPECT_TRUE(verdict["effects"].empty()) << verdict;
+}
+
 // How the sensor is mounted does not use up the causes that were asked for.
 TEST(Diagnosis, HowTheSensorIsMountedComesOnTopOfTheCausesAskedFor) {
   Vehicle truth = published_vehicle();

@@ -12,24 +12,26 @@ const auto kAny = [](int) { return false; };
 
 // A battery that by the form falls faster than any does, and a bias that passes.
 Standing a_battery_and_a_bias(double information) {
-  Standing at = standing_by_hand({"m", "battery_sag.rate", "imu_bias.ax"},
-                                 Eigen::VectorXd{{1.0, information, 1e4}}, Eigen::VectorXd{{0.0, 0.03, 0.1}});
+  Standing at =
+      standing_by_hand({"m", "battery_sag.rate", "imu_bias.ax"}, Eigen::VectorXd{{1.0, information, 1e4}},
+                       Eigen::VectorXd{{0.0, 200.0, 0.1}});
+  at.problem.constants[1].scale = 0.0005;  // typical of a battery: by the form it falls by a tenth a second
   at.problem.candidates = {{"battery_sag", {1}}, {"imu_bias", {2}}};
   return at;
 }
 
 TEST(NextCause, OneBeyondItsRangeIsTriedWhereItGainsFarMoreThanAnyOther) {
-  const Standing strong = a_battery_and_a_bias(1e8);  // gains 90000, the bias 100
+  const Standing strong = a_battery_and_a_bias(2.25);  // gains 90000, the bias 100
   const NextCause next = next_cause(strong, kAny, {});
   EXPECT_EQ(next.uneven.candidate, 0);
   EXPECT_TRUE(next.uneven.beyond);
   EXPECT_EQ(next.best.candidate, 1);
   EXPECT_FALSE(further(strong, {}, 0).passes());
-  EXPECT_EQ(next_cause(a_battery_and_a_bias(1e6), kAny, {}).uneven.candidate, 1);
+  EXPECT_EQ(next_cause(a_battery_and_a_bias(0.0225), kAny, {}).uneven.candidate, 1);
 }
 
 TEST(NextCause, WhatWasTriedMayStillBeFoundAndWhatIsBarredMayNot) {
-  const Standing at = a_battery_and_a_bias(1e8);
+  const Standing at = a_battery_and_a_bias(2.25);
   const NextCause tried = next_cause(at, kAny, {at.problem.candidates[0], at.problem.candidates[1]});
   EXPECT_EQ(tried.uneven.candidate, -1);
   EXPECT_EQ(tried.best.candidate, 1);

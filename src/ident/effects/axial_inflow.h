@@ -19,7 +19,7 @@ struct AxialInflow {
       .looks_like = "Fz with climb rate; damping of roll and pitch rates",
       .confused_with = "motor lag (parameter:omega_m), blade_flapping, rate damping",
       .split_by = "level vertical steps (inflow) and a frequency sweep in roll (lag)"};
-  static constexpr std::array parameters{EffectParameter{"kz", "kg/rad", 0.0, Range::positive, 1e-05, 0.01}};
+  static constexpr std::array parameters{EffectParameter{"kz", "kg/rad", 0.0, Range::positive, 1e-05, 0.003}};
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {

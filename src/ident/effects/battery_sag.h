@@ -21,7 +21,7 @@ struct BatterySag {
           "measured",
       .confused_with = "parameter:km, thrust_curve, payload",
       .split_by = "measure rotor speed or log the voltage; hover at the start and at the end of a pack"};
-  static constexpr std::array parameters{EffectParameter{"n", "-", 0.0, Range::positive, 0.3, 5.0},
+  static constexpr std::array parameters{EffectParameter{"n", "-", 0.0, Range::positive, 0.3, 3.0},
                                          EffectParameter{"rate", "1/s", 0.0, Range::positive, 0.0005, 0.02}};
 
   template <class S>

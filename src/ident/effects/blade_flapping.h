@@ -20,7 +20,7 @@ struct BladeFlapping {
       .confused_with = "cg height, rotor_drag with hubs off the centre, rate damping",
       .split_by = "fast level legs in four directions: the moment follows the velocity, not the rates"};
   static constexpr std::array parameters{
-      EffectParameter{"kf", "N s^2/rad", 0.0, Range::positive, 2e-06, 0.01}};
+      EffectParameter{"kf", "N s^2/rad", 0.0, Range::positive, 2e-06, 1e-04}};
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {

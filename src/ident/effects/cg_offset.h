@@ -19,9 +19,9 @@ struct CgOffset {
       .looks_like = "moments that grow with total thrust",
       .confused_with = "rotor_mismatch, rotor_tilt, payload, wind",
       .split_by = "strong doublets at constant collective; balance the vehicle on a knife edge"};
-  static constexpr std::array parameters{EffectParameter{"x", "m", 0.0, Range::any, 0.002, 0.2},
-                                         EffectParameter{"y", "m", 0.0, Range::any, 0.002, 0.2},
-                                         EffectParameter{"z", "m", 0.0, Range::any, 0.005, 0.2}};
+  static constexpr std::array parameters{EffectParameter{"x", "m", 0.0, Range::any, 0.002, 0.03},
+                                         EffectParameter{"y", "m", 0.0, Range::any, 0.002, 0.03},
+                                         EffectParameter{"z", "m", 0.0, Range::any, 0.005, 0.06}};
 
   template <class S>
   static void apply(const S* p, MassSeam<S>& seam) {

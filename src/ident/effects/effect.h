@@ -24,7 +24,7 @@ struct EffectParameter {
   double null_value = 0.0;
   Range range = Range::any;  ///< physical sign relative to the null value
   double typical = 1.0;      ///< a plausible size above which it matters, in its unit, for a 0.5 kg vehicle
-  double limit = 1e9;        ///< beyond this (distance from null) the value is not physical
+  double limit = 1e9;        ///< farther from null the value is not physical, for such a vehicle
 };
 
 struct EffectInfo {

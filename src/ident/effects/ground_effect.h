@@ -20,7 +20,7 @@ struct GroundEffect {
                                    .confused_with = "translational_lift, parameter:kT, thrust_curve",
                                    .split_by = "hover steps at 0.5, 1, 2, 4 and 8 rotor radii"};
   static constexpr std::array parameters{
-      EffectParameter{"radius_sq", "m^2", 0.0, Range::positive, 0.01, 25.0}};
+      EffectParameter{"radius_sq", "m^2", 0.0, Range::positive, 0.01, 0.25}};
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {

@@ -20,7 +20,7 @@ struct Gyroscopic {
           "Mx with q and My with -p when the spins do not cancel; Mz leads with the rotor acceleration",
       .confused_with = "parameter:kQ, parameter:omega_m, products_of_inertia",
       .split_by = "fast yaw doublets, and pitching while rolling"};
-  static constexpr std::array parameters{EffectParameter{"Jp", "kg m^2", 0.0, Range::any, 3e-06, 0.01}};
+  static constexpr std::array parameters{EffectParameter{"Jp", "kg m^2", 0.0, Range::any, 3e-06, 6e-05}};
 
   template <class S>
   static void apply(const S* p, MassSeam<S>& seam) {

@@ -19,9 +19,9 @@ struct ImuBias {
       .looks_like = "a constant specific force without a twin in the motion",
       .confused_with = "wind, rotor_tilt",
       .split_by = "a slow turn through 360 degrees, or a six-position test on the bench"};
-  static constexpr std::array parameters{EffectParameter{"ax", "m/s^2", 0.0, Range::any, 0.1, 5.0},
-                                         EffectParameter{"ay", "m/s^2", 0.0, Range::any, 0.1, 5.0},
-                                         EffectParameter{"az", "m/s^2", 0.0, Range::any, 0.1, 5.0}};
+  static constexpr std::array parameters{EffectParameter{"ax", "m/s^2", 0.0, Range::any, 0.1, 1.5},
+                                         EffectParameter{"ay", "m/s^2", 0.0, Range::any, 0.1, 1.5},
+                                         EffectParameter{"az", "m/s^2", 0.0, Range::any, 0.1, 1.5}};
 
   template <class S>
   static void apply(const S* p, SensorSeam<S>& seam) {

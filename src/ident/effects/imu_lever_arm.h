@@ -18,9 +18,9 @@ struct ImuLeverArm {
                                    .looks_like = "specific force with angular acceleration and squared rates",
                                    .confused_with = "cg_offset, blade_flapping, imu_misalignment",
                                    .split_by = "shake about one axis at a time"};
-  static constexpr std::array parameters{EffectParameter{"x", "m", 0.0, Range::any, 0.005, 1.0},
-                                         EffectParameter{"y", "m", 0.0, Range::any, 0.005, 1.0},
-                                         EffectParameter{"z", "m", 0.0, Range::any, 0.005, 1.0}};
+  static constexpr std::array parameters{EffectParameter{"x", "m", 0.0, Range::any, 0.005, 0.15},
+                                         EffectParameter{"y", "m", 0.0, Range::any, 0.005, 0.15},
+                                         EffectParameter{"z", "m", 0.0, Range::any, 0.005, 0.15}};
 
   template <class S>
   static void apply(const S* p, SensorSeam<S>& seam) {

@@ -19,9 +19,9 @@ struct ImuMisalignment {
       .looks_like = "part of one axis appears on another, in rates and specific force alike",
       .confused_with = "products_of_inertia, rotor_tilt, imu_bias",
       .split_by = "a six-position test on the bench"};
-  static constexpr std::array parameters{EffectParameter{"x", "rad", 0.0, Range::any, 0.02, 0.5},
-                                         EffectParameter{"y", "rad", 0.0, Range::any, 0.02, 0.5},
-                                         EffectParameter{"z", "rad", 0.0, Range::any, 0.02, 0.5}};
+  static constexpr std::array parameters{EffectParameter{"x", "rad", 0.0, Range::any, 0.02, 0.35},
+                                         EffectParameter{"y", "rad", 0.0, Range::any, 0.02, 0.35},
+                                         EffectParameter{"z", "rad", 0.0, Range::any, 0.02, 0.35}};
 
   template <class S>
   static void apply(const S* p, SensorSeam<S>& seam) {

@@ -21,7 +21,7 @@ struct ParasiticDrag {
       .confused_with = "rotor_drag, wind",
       .split_by = "fly one speed at two collectives, or twice the speed: body drag goes with the square"};
   static constexpr std::array parameters{
-      EffectParameter{"C", "N s^2/m^2", 0.0, Range::positive, 0.005, 10.0}};
+      EffectParameter{"C", "N s^2/m^2", 0.0, Range::positive, 0.005, 0.25}};
 
   template <class S>
   static void apply(const S* p, BodySeam<S>& seam) {

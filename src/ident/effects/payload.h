@@ -19,7 +19,7 @@ struct Payload {
       .looks_like = "Fz, the gain of the rates and the centre of gravity at once",
       .confused_with = "parameter:m, cg_offset, parameter:kT",
       .split_by = "put the vehicle on a scale"};
-  static constexpr std::array parameters{EffectParameter{"m", "kg", 0.0, Range::positive, 0.02, 20.0},
+  static constexpr std::array parameters{EffectParameter{"m", "kg", 0.0, Range::positive, 0.02, 0.5},
                                          EffectParameter{"x", "m", 0.0, Range::any, 0.02, 1.0},
                                          EffectParameter{"y", "m", 0.0, Range::any, 0.02, 1.0},
                                          EffectParameter{"z", "m", 0.0, Range::any, 0.03, 1.0}};

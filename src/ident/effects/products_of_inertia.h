@@ -19,9 +19,9 @@ struct ProductsOfInertia {
       .looks_like = "angular acceleration about one axis from a moment about another, at high frequency",
       .confused_with = "imu_misalignment, cg_offset, rotor_tilt",
       .split_by = "doublets about one axis at a time"};
-  static constexpr std::array parameters{EffectParameter{"Jxy", "kg m^2", 0.0, Range::any, 5e-05, 10.0},
-                                         EffectParameter{"Jxz", "kg m^2", 0.0, Range::any, 5e-05, 10.0},
-                                         EffectParameter{"Jyz", "kg m^2", 0.0, Range::any, 5e-05, 10.0}};
+  static constexpr std::array parameters{EffectParameter{"Jxy", "kg m^2", 0.0, Range::any, 5e-05, 2.5e-3},
+                                         EffectParameter{"Jxz", "kg m^2", 0.0, Range::any, 5e-05, 2.5e-3},
+                                         EffectParameter{"Jyz", "kg m^2", 0.0, Range::any, 5e-05, 2.5e-3}};
 
   template <class S>
   static void apply(const S* p, MassSeam<S>& seam) {

@@ -21,7 +21,7 @@ struct RotorDrag {
       .split_by =
           "fly one speed at two collectives (level and climbing): rotor drag grows with rotor speed, body "
           "drag does not"};
-  static constexpr std::array parameters{EffectParameter{"kd", "kg/rad", 0.0, Range::positive, 1e-05, 0.01}};
+  static constexpr std::array parameters{EffectParameter{"kd", "kg/rad", 0.0, Range::positive, 1e-05, 0.001}};
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {

@@ -18,7 +18,7 @@ struct TranslationalLift {
                                    .looks_like = "Fz even in horizontal speed",
                                    .confused_with = "parameter:kT, thrust_curve, axial_inflow",
                                    .split_by = "fast level legs to and fro at constant height"};
-  static constexpr std::array parameters{EffectParameter{"kh", "kg/m", 0.0, Range::positive, 0.001, 1.0}};
+  static constexpr std::array parameters{EffectParameter{"kh", "kg/m", 0.0, Range::positive, 0.001, 0.05}};
 
   template <class S>
   static void apply(const S* p, RotorSeam<S>& seam) {

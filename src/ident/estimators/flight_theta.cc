@@ -180,6 +180,11 @@ double typical_scale(int index, const Vehicle& vehicle, const std::vector<double
   return std::max(std::abs(at(index)), 1e-12);
 }
 
+double physical_limit(const FreeConstant& constant) {
+  const EffectParameter* of = find_effect_parameter(constant.name);
+  return of ? of->limit * constant.scale / of->typical : std::numeric_limits<double>::infinity();
+}
+
 std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vector<double>& p,
                                          const std::vector<std::string>& also) {
   std::vector<FreeConstant> free;

@@ -82,6 +82,10 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
 /// Unit step of a constant: its typical size where its value may be zero.
 double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p);
 
+/// Distance from its null value beyond which an effect's constant is not physical on this vehicle; infinite
+/// for any other.
+double physical_limit(const FreeConstant& constant);
+
 /// Takes out the constants from command to rotor speed, of which logs without commands say nothing.
 void leave_out_motors(std::vector<FreeConstant>& constants);
 

@@ -21,7 +21,7 @@ bool beyond_physics(const FittedModel& model) {
     if (!c.adopted || !effect || c.name.starts_with("payload.")) continue;
     const int k = static_cast<int>(i);
     const double beyond =
-        std::abs(model.theta->physical(model.fit.u, k) - effect->null_value) - effect->limit;
+        std::abs(model.theta->physical(model.fit.u, k) - effect->null_value) - physical_limit(c);
     if (beyond > kByChance * model.theta->deviation(model.fit.u, k, model.fit.covariance)) return true;
   }
   return false;

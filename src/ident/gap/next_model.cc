@@ -11,10 +11,9 @@ namespace {
 constexpr double kStrong = 1e4;  // beyond this fall of the cost noise is found anew with the cause
 
 // A step of the quadratic form may end beyond what is physical: then half way there.
-double within_limit(const std::string& name, double value) {
-  const EffectParameter* p = find_effect_parameter(name);
-  if (!p || std::abs(value - p->null_value) <= p->limit) return value;
-  return p->null_value + std::copysign(0.5 * p->limit, value - p->null_value);
+double within_limit(const FreeConstant& c, double value) {
+  const double null = find_parameter(c.name)->null_value, limit = physical_limit(c);
+  return std::abs(value - null) <= limit ? value : null + std::copysign(0.5 * limit, value - null);
 }
 
 // The constant of a new cause starts at the step of the quadratic form, where that has it. A payload's place
@@ -24,14 +23,13 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
   for (const int i : cause.directions) {
     const FreeConstant& d = problem.constants[static_cast<std::size_t>(i)];
     const double moved = at[static_cast<std::size_t>(d.index)] + d.scale * step[i];
-    if (d.name == c.name) c.start = within_limit(d.name, moved);
+    if (d.name == c.name) c.start = within_limit(d, moved);
     if (c.name == "payload.m") c.start = std::max(c.start, 1e-3 * at[param::m]), c.positive = true;
     if (cause.name == "payload" && d.name.substr(0, 9) == "cg_offset" &&
         d.name.substr(9) == c.name.substr(7)) {
-      const double mass = std::max(
-          within_limit("payload.m", problem.constants[static_cast<std::size_t>(cause.directions[0])].scale *
-                                        std::abs(step[cause.directions[0]])),
-          1e-3 * at[param::m]);
+      const FreeConstant& carried = problem.constants[static_cast<std::size_t>(cause.directions[0])];
+      const double mass = std::max(within_limit(carried, carried.scale * std::abs(step[cause.directions[0]])),
+                                   1e-3 * at[param::m]);
       c.start = std::clamp(moved * at[param::m] / mass, -reach, reach);
     }
   }

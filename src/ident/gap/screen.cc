@@ -11,6 +11,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// What the quadratic form says of a size is that far off at most.
+constexpr double kFarther = 3.0;
 // The price of a direction is half the log of the odds between the sizes that it might have had, some times
 // its typical one, and those that the data leave; at most that of an effective sample.
 constexpr double kPricePerDirection = 2.5;
@@ -257,7 +259,7 @@ SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const
     for (const int i : problem.candidates[static_cast<std::size_t>(c)].directions) {
       const FreeConstant& of = problem.constants[static_cast<std::size_t>(i)];
       const double size = std::abs(of.unit() * (with.step[i] - form.null[i]));
-      if (const EffectParameter* p = find_effect_parameter(of.name); p && size > p->limit) out.sizes = false;
+      if (size > kFarther * physical_limit(of)) out.sizes = false;
     }
   out.gain = with.drop - without.drop;
   out.step = with.step;
