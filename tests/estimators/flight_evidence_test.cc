@@ -7,6 +7,7 @@
 #include "ident/estimators/flight_refine.h"
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_traces.h"
+#include "ident/estimators/flight_validation.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/model/simulate.h"
 
@@ -115,6 +116,23 @@ TEST(HeldOutTraces, FollowTheMeasurementWithTheTrueModelAndLeaveItWithAWrongThru
     return std::sqrt(sum / n);
   };
   EXPECT_LT(rms(plots[0].series[2]), 0.5 * rms(plots[0].series[1]));
+}
+
+TEST(Validation, SaysWhereTheStatedConstantsPredictBetterAndOnlyThere) {
+  const Fitted f;
+  const FlightRecord held_out = held_out_of(f.record, 0.5);
+  const Eigen::VectorXd wrong = Eigen::VectorXd::Zero(f.theta->size());  // kT three percent too high
+  const Validation good = validate_refined(held_out, *f.theta, wrong, f.fit, Shown::tables);
+  EXPECT_EQ(good.worse, "");
+  ASSERT_EQ(good.horizons.size(), 3U);
+  for (const auto& row : good.horizons)
+    EXPECT_LT(row["after"].get<double>(), row["before"].get<double>()) << row;
+  FlightFit turned = f.fit;
+  turned.u = wrong;
+  const Validation bad = validate_refined(held_out, *f.theta, f.fit.u, turned, Shown::tables);
+  EXPECT_TRUE(bad.worse.starts_with("flight that was not fitted is predicted worse")) << bad.worse;
+  const Validation same = validate_refined(held_out, *f.theta, f.fit.u, f.fit, Shown::tables);
+  EXPECT_EQ(same.worse, "") << "as well as stated is not worse";
 }
 
 }  // namespace

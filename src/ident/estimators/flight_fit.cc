@@ -57,6 +57,10 @@ void calm(FlightSmoother& smoother) {
   smoother.set_noise(noise);
 }
 
+VectorXd start_of(const Theta& theta, const FlightFitOptions& options) {
+  return options.start.size() > 0 ? options.start : VectorXd::Zero(theta.size());
+}
+
 // One fit on its way: shared unknowns, noise and chunks over a record or an excerpt of it.
 class Fitting {
  public:
@@ -64,7 +68,7 @@ class Fitting {
       : record_(record),
         theta_(theta),
         options_(options),
-        u_(VectorXd::Zero(theta.size())),
+        u_(start_of(theta, options)),
         order_(options.order) {}
 
   /// From what was measured and stated.
@@ -90,7 +94,7 @@ class Fitting {
     order_ = options_.exact ? 4 : excerpt.order_;
     restart(excerpt.smoother_->noise(), 1);
     if (!(square_of(*smoother_) < kFar)) {
-      u_.setZero(), axes_chosen_ = false, steps_ = 0;
+      u_ = start_of(theta_, options_), axes_chosen_ = false, steps_ = 0;
       return false;
     }
     const NewtonStep step = newton_step(*smoother_, u_);

@@ -13,6 +13,7 @@ struct FlightFitOptions {
   double chunk_seconds = 0.0;  ///< 0: chosen from the noise that is found
   bool estimate_noise = true;
   std::optional<NoiseModel> noise;  ///< to start from
+  Eigen::VectorXd start;            ///< unknowns to start from; empty: u = 0
   int noise_rounds = 10;
   bool rough_noise = false;  ///< to a tenth is enough: models are compared under one common to them
   int most_steps = 0;      ///< of the shared unknowns; a fit that needs more has not converged. 0: any number
@@ -44,7 +45,7 @@ struct FlightFit {
       smoother;  ///< before the last small step; refers to the record and theta of the call
 };
 
-/// Fit of `theta` (starting at u = 0) to the record; both must outlive the result.
+/// Fit of `theta` to the record; both must outlive the result.
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
 /// Fall of the cost that a step has to promise to be looked at: more than the tolerance, and than a share of

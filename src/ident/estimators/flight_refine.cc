@@ -18,8 +18,8 @@
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
-#include "ident/estimators/flight_traces.h"
 #include "ident/estimators/flight_trim.h"
+#include "ident/estimators/flight_validation.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -38,40 +38,6 @@ nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
   nlohmann::ordered_json std = nlohmann::ordered_json::array(), time = std;
   for (const ColouredNoise& axis : noise) std.push_back(axis.sigma), time.push_back(axis.tau);
   return {{"std", std}, {"correlation_time", time}};
-}
-
-Section validation(const FlightRecord& held_out, const Theta& theta, const VectorXd& before,
-                   const FlightFit& fit, Shown shown, Result& result) {
-  Table table{"Prediction error on held-out flight, in noise standard deviations",
-              {"horizon s", "parameters before", "refined", "floor", "windows"},
-              {}};
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  const PredictionOptions options, errors{.floors = false};
-  const auto stated = predict_windows(held_out, theta, before, fit.noise, errors);
-  const auto refined = predict_windows(held_out, theta, fit.u, fit.noise, options);
-  for (std::size_t h = 0; h < options.horizons.size(); ++h) {
-    const double horizon = options.horizons[h];
-    const PredictionSummary a = summarise(stated[h]), b = summarise(refined[h]);
-    if (b.windows == 0) continue;
-    table.rows.push_back({format_number(horizon), format_number(a.error, 3), format_number(b.error, 3),
-                          format_number(b.floor, 3), std::to_string(b.windows)});
-    nlohmann::ordered_json one{{"horizon", horizon}, {"before", a.error}, {"after", b.error}};
-    one.update({{"after_ci95", b.ci95}, {"noise_floor", b.floor}, {"windows", b.windows}});
-    all.push_back(one);
-  }
-  result.fit["held_out"] = all;
-  Section section{
-      .title = "Held-out prediction",
-      .text =
-          "Fitted to the first 70 % of each log, judged on the rest: the state is estimated from the past "
-          "only, then predicted.",
-      .tables = {std::move(table)}};
-  if (shown != Shown::pictures) return section;
-  std::vector<int> channels = channels_that_gain(stated.back(), refined.back());
-  channels.resize(std::min<std::size_t>(channels.size(), 2));
-  section.plots = prediction_traces(held_out, {"parameters before", &theta, before},
-                                    {"refined", &theta, fit.u}, fit.noise, channels, {0.5, 1.0});
-  return section;
 }
 
 }  // namespace
@@ -230,6 +196,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
         "line through the flown commands gives it, is estimated too");
     constants = free_constants(vehicle, p, with_command_offset(options.free));
     free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
+    // The offset stands last here as it did while it was watched: from where that fit ended.
+    fit_options.start = fit.u, fit_options.noise = fit.noise, fit_options.noise->axes = GustAxes::world;
     fit = fit_flight(record, *free, fit_options);
   }
   const Theta& theta = *free;
@@ -274,6 +242,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (options.shown == Shown::pictures)
     std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
                       std::back_inserter(result.sections));
+  bool worse = false;
   if (options.validate && record.duration > 6) {
     const FlightRecord held_out = held_out_of(record, kTrainingShare);
     FlightFit view = fit;
@@ -282,12 +251,16 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     VectorXd before = view.u;
     before.head(n).setZero();                     // the constants as stated, with the gyro biases of the fit
     fit.smoother.reset(), view.smoother.reset();  // the largest thing in memory
-    result.sections.push_back(validation(held_out, theta, before, view, options.shown, result));
+    Validation validation = validate_refined(held_out, theta, before, view, options.shown);
+    result.fit["held_out"] = validation.horizons;
+    result.sections.push_back(std::move(validation.section));
+    if (!validation.worse.empty()) result.warn("predicts_worse", validation.worse), worse = true;
   }
   int determined = 0;
   for (const Parameter& q : result.parameters) determined += q.identifiable;
-  result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight.", determined,
-                               result.parameters.size(), record.duration);
+  result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight{}.", determined,
+                               result.parameters.size(), record.duration,
+                               worse ? ", but they predict other flight worse than those stated do" : "");
   if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;
 }
