@@ -201,7 +201,7 @@ TEST(AgainstNaming, ACauseOfWhichOneChannelAsksForAnotherSizeIsNotNamed) {
 TEST(AgainstNaming, AWeakCauseBesideWhatSwingsOrStrikesIsNotNamed) {
   Case c({"thrust_curve"}, {"thrust_curve"});
   c.weighs({0}, 1.0);
-  c.jumps = {{"Mx", 0, 10, 14.0, 20.0}};
+  c.jumps = {{"Mx", 0, 10, 10, 14.0, 20.0}};
   EXPECT_EQ(c.judged().status, "identified");
   c.search.alone[0].gain = 50.0;
   EXPECT_EQ(c.judged().status, "unknown");

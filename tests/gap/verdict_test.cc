@@ -20,11 +20,16 @@ TEST(Verdict, NothingFoundIsNoneUnlessSomethingCanBePredictedSwingsOrStrikes) {
   EXPECT_EQ(c.judged().sentence,
             "The model explains these logs down to 1.3 times their noise; no cause stands out.");
   c.gap.after = c.gap.floor;
-  c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
+  c.jumps.push_back({"Mx", 0, 5, 5, 8.0, 3.0});
   EXPECT_EQ(c.judged().status, "unknown");
-  c.jumps = {{"Mz", 0, 5, 8.0, 3.0}};  // gusts do that by a drag that is known
+  c.jumps = {{"Mz", 0, 5, 5, 8.0, 3.0}};  // gusts do that by a drag that is known
   EXPECT_EQ(c.judged().status, "none");
   EXPECT_NE(c.judged().sentence.find("Moments about the yaw axis jump, most at 3 s of log 1"),
+            std::string::npos)
+      << c.judged().sentence;
+  c.jumps = {{"Mx", 0, 5, 1, 8.0, 3.0}};  // the error of measured speeds does that
+  EXPECT_EQ(c.judged().status, "none");
+  EXPECT_NE(c.judged().sentence.find("Mx jumps, most at 3 s of log 1, by no more than a sudden drive"),
             std::string::npos)
       << c.judged().sentence;
   c.jumps.clear();
@@ -74,7 +79,7 @@ TEST(Verdict, WithoutACauseThatCouldBeTriedTheLikelyOnesAreTold) {
   Case c({"rotor_drag", "wind", "payload"}, {});
   c.weighs({}, 0.5), c.weighs({1}, 0.3), c.weighs({0}, 0.18), c.weighs({2}, 0.02);
   EXPECT_TRUE(c.judged().confused_with.empty());
-  c.jumps.push_back({"Mx", 0, 5, 8.0, 3.0});
+  c.jumps.push_back({"Mx", 0, 5, 5, 8.0, 3.0});
   const Judged seen = c.judged();
   EXPECT_EQ(seen.status, "unknown");
   EXPECT_TRUE(seen.effects.empty());

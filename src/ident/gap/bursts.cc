@@ -11,8 +11,11 @@ namespace ident {
 namespace {
 
 constexpr double kBeyond = 6.0;  // standard deviations; the largest of 7000 calm jumps was at 4.2
-constexpr double kSeen = 3.0;    // and as many of what one piece of flight tells of the rate or velocity
-constexpr int kLeast = 30;       // jumps in a log, to know what is steady
+// The same where speeds are the input, of what gusts and their error make: a motor that is driven between two
+// samples of its speed jumped by 7 of them.
+constexpr double kBeyondInput = 10.0;
+constexpr double kSeen = 3.0;  // and as many of what one piece of flight tells of the rate or velocity
+constexpr int kLeast = 30;     // jumps in a log, to know what is steady
 // Where gusts act by a known drag their pushes go with the flight: what is steady is also judged by the jumps
 // within so many seconds to either side.
 constexpr double kNearby = 2.5;
@@ -21,6 +24,7 @@ constexpr std::size_t kNeighbours = 10;
 struct Jump {
   double size, seen, t;  // seen: in standard deviations of the sensor over the piece
   double variance;       // that gusts and the error of measured speeds give it
+  bool plain = true;     // is not what a sudden drive makes where speeds are the input
 };
 
 // What is expected of jumps differs along a flight where speeds are the input: all as if they were usual
@@ -28,8 +32,10 @@ struct Jump {
 void make_alike(std::vector<Jump>& jumps) {
   double mean = 0;
   for (const Jump& j : jumps) mean += j.variance / static_cast<double>(jumps.size());
-  for (Jump& j : jumps)
+  for (Jump& j : jumps) {
+    j.plain = j.size > kBeyondInput * std::sqrt(j.variance);
     if (j.variance > 0) j.size *= std::sqrt(mean / j.variance);
+  }
 }
 
 std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int axis, int log) {
@@ -78,13 +84,13 @@ std::vector<Burst> bursts(const FlightRecord& record, const FlightFit& fit) {
       std::vector<double> sizes;
       for (const Jump& j : jumps) sizes.push_back(j.size);
       const double overall = 1.4826 * median(sizes);
-      Burst found{names[static_cast<std::size_t>(axis)], log, 0, 0.0, 0.0};
+      Burst found{.channel = names[static_cast<std::size_t>(axis)], .log = log};
       for (std::size_t i = 0; i < jumps.size(); ++i) {
         const Jump& j = jumps[i];
         if (!(j.size > kBeyond * overall && j.seen > kSeen)) continue;
         const double spread = spread_about(jumps, i, overall);
         if (!(j.size > kBeyond * spread)) continue;
-        found.count += 1;
+        found.count += 1, found.plain += j.plain;
         if (const double beyond = j.size / std::max(spread, 1e-300); beyond > found.largest)
           found.largest = beyond, found.t = j.t;
       }

@@ -12,6 +12,7 @@ namespace ident {
 struct Burst {
   std::string channel;  ///< Mx My Mz about the body's axes, Fx Fy Fz along the world's
   int log = 0, count = 0;
+  int plain = 0;       ///< of these, such as no error of measured speeds makes
   double largest = 0;  ///< jump in standard deviations of the steady ones
   double t = 0;        ///< of the largest, s
 };

@@ -32,7 +32,8 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
                      const std::vector<Burst>& jumps, const std::vector<Parameter>& fitted) {
   Judged out{.status = "unknown"};
   const auto strike =
-      std::ranges::find_if(jumps, [](const Burst& one) { return one.channel != std::string_view("Mz"); });
+      std::ranges::find_if(jumps, [](const Burst& one) { return one.channel != "Mz" && one.plain >= 2; });
+  const auto about_z = std::ranges::find(jumps, std::string("Mz"), &Burst::channel);
   if (rival.total() > kRivalGain)
     out.sentence = fmt::format(
         "Something acts on this vehicle that no single cause of the catalogue explains: what the model "
@@ -67,10 +68,16 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
     out = {.status = "none",
            .sentence =
                "The model explains these logs down to " + remaining_noise(gap) + "; no cause stands out."};
-  if (out.status == "none" && !jumps.empty())
+  if (out.status == "none" && about_z != jumps.end())
     out.sentence +=
         fmt::format(" Moments about the yaw axis jump, most at {} s of log {}, as gusts make them.",
-                    format_number(jumps[0].t, 3), jumps[0].log + 1);
+                    format_number(about_z->t, 3), about_z->log + 1);
+  else if (out.status == "none" && !jumps.empty())
+    out.sentence += fmt::format(
+        " {} jumps, most at {} s of log {}, by no more than a sudden drive between two samples of the "
+        "measured "
+        "speeds makes.",
+        jumps[0].channel, format_number(jumps[0].t, 3), jumps[0].log + 1);
   return out;
 }
 
