@@ -11,9 +11,9 @@ namespace ident {
 namespace {
 
 constexpr double kBeyond = 6.0;  // standard deviations; the largest of 7000 calm jumps was at 4.2
-// The same where speeds are the input, of what gusts and their error make: a motor that is driven between two
-// samples of its speed jumped by 7 of them.
-constexpr double kBeyondInput = 10.0;
+// The same of moments where speeds are the input, of what gusts and their error make: those of motors that
+// are driven between two samples of their speeds jumped by 7 of them, which shows in no force.
+constexpr double kBeyondInput = 8.0;
 constexpr double kSeen = 3.0;  // and as many of what one piece of flight tells of the rate or velocity
 constexpr int kLeast = 30;     // jumps in a log, to know what is steady
 // Where gusts act by a known drag their pushes go with the flight: what is steady is also judged by the jumps
@@ -29,11 +29,11 @@ struct Jump {
 
 // What is expected of jumps differs along a flight where speeds are the input: all as if they were usual
 // ones.
-void make_alike(std::vector<Jump>& jumps) {
+void make_alike(std::vector<Jump>& jumps, bool moments) {
   double mean = 0;
   for (const Jump& j : jumps) mean += j.variance / static_cast<double>(jumps.size());
   for (Jump& j : jumps) {
-    j.plain = j.size > kBeyondInput * std::sqrt(j.variance);
+    j.plain = !moments || j.size > kBeyondInput * std::sqrt(j.variance);
     if (j.variance > 0) j.size *= std::sqrt(mean / j.variance);
   }
 }
@@ -58,7 +58,7 @@ std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int
                             fit.smoother->input_error(k, axis) + fit.smoother->input_error(k + 1, axis);
     out.push_back({std::abs(size), std::abs(size) * h / noise, arc.t[places[k].end], variance});
   }
-  if (has_noisy_input(record)) make_alike(out);
+  if (has_noisy_input(record)) make_alike(out, axis < 3);
   return out;
 }
 
