@@ -14,13 +14,7 @@ namespace {
 // Loianno, Data-Driven System Identification of Quadrotors Subject to Motor Delays.
 TEST(RealRefinement, ThreeLogsGiveABrushedCrazyflieAsPublished) {
   IDENT_NEEDS_REAL_DATA(folder);
-  Vehicle vehicle = arplab_crazyflie();
-  const auto state = [&](const char* name, double value, double std) {
-    vehicle.parameters[name] = {value, std};
-  };
-  state("m", 0.027, 3e-4), state("kT", 2e-8, 1e-8), state("kQ", 1.2e-10, 1.2e-10), state("km", 2400, 500);
-  state("omega_m", 30, 30), state("zeta_m", 1, 0.5);
-  state("Jxx", 1.4e-5, 7e-6), state("Jyy", 1.4e-5, 7e-6), state("Jzz", 2.2e-5, 1.1e-5);
+  const Vehicle vehicle = arplab_crazyflie_known_vaguely();
   std::vector<FlightLog> logs;
   std::vector<double> flown;
   for (const char* log : {"log10", "log15", "log16"}) {

@@ -42,5 +42,44 @@ TEST(Bursts, AJumpToAndFroIsNamedWithItsChannelAndTime) {
   EXPECT_NEAR(found[0].t, at, 0.3);  // its onset or its end
 }
 
+// Pushed `times` what gusts and the error of measured speeds make of a jump along one axis, which are the
+// input; all else is calm.
+int plain_jumps(int axis, double times) {
+  const Vehicle vehicle = testing::published_vehicle();
+  SimulationOptions options;
+  options.scenario = "hover", options.duration = 20.0, options.rate = 100.0;
+  std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  logs[0].delta.clear();
+  Random random(7);
+  for (auto& column : logs[0].Omega)
+    for (double& Omega : column) Omega += random.normal();
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta theta(p, {}, 1, true);
+  FlightFit fit;
+  fit.noise = initial_noise(record);
+  fit.smoother = std::make_shared<FlightSmoother>(record, theta, fit.noise, 0.1);
+  const ColouredNoise& gusts = axis < 3 ? fit.noise.air[0].w_dot[0] : fit.noise.air[0].v_dot[0];
+  const double made = std::sqrt(2 * gusts.sigma * gusts.sigma * (1 - gusts.carried(0.1)) +
+                                2 * fit.smoother->input_error(90, axis));
+  std::vector<FlightState<double>> states = fit.smoother->states();
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    Disturbance<double>& outside = states[k].outside;
+    outside.w_dot_B.setZero(), outside.v_dot.setZero();
+    double& one = axis < 3 ? outside.w_dot_B[axis] : outside.v_dot[axis - 3];
+    one = 0.01 * made * random.normal() + (k == 90 || k == 91 ? times * made : 0.0);
+  }
+  fit.smoother->set_states(states);
+  const std::vector<Burst> found = bursts(record, fit);
+  EXPECT_FALSE(found.empty());
+  return found.empty() ? -1 : found[0].plain;
+}
+
+TEST(Bursts, WhatASuddenDriveBetweenSamplesOfTheSpeedsMakesIsNotPlain) {
+  EXPECT_EQ(plain_jumps(0, 6.0), 0) << "a moment";
+  EXPECT_EQ(plain_jumps(0, 12.0), 2);
+  EXPECT_EQ(plain_jumps(5, 6.0), 2) << "a force, which no drive makes so";
+}
+
 }  // namespace
 }  // namespace ident

@@ -42,13 +42,7 @@ TEST(RealGap, ANearlyInstantMotorIsTheFirstThingFoundWrongOfABrushedCrazyflie) {
 // that is off by a third of g; at rest before the flight it shows 1.00 g.
 TEST(RealGap, NoCauseIsNamedOfASizeThatNoVehicleHas) {
   IDENT_NEEDS_REAL_DATA(folder);
-  Vehicle vehicle = arplab_crazyflie();
-  const auto state = [&](const char* name, double value, double std) {
-    vehicle.parameters[name] = {value, std};
-  };
-  state("m", 0.027, 3e-4), state("kT", 2e-8, 1e-8), state("kQ", 1.2e-10, 1.2e-10), state("km", 2400, 500);
-  state("omega_m", 30, 30), state("zeta_m", 1, 0.5);
-  state("Jxx", 1.4e-5, 7e-6), state("Jyy", 1.4e-5, 7e-6), state("Jzz", 2.2e-5, 1.1e-5);
+  const Vehicle vehicle = arplab_crazyflie_known_vaguely();
   const std::vector<FlightLog> logs{read_flight_log(
       folder + "/flight/arplab_crazyflie/log16.csv", vehicle,
       read_log_map(std::string(IDENT_SOURCE_DIR) + "/data/maps/arplab_crazyflie_log16.yaml"))};
