@@ -48,19 +48,33 @@ TEST_P(DenseRowsOf, ProductsAreAddedWithTheirSign) {
   }
 }
 
+TEST_P(DenseRowsOf, OfASymmetricProductTheUpperTriangleIsWhole) {
+  Random random(9);
+  for (const auto& [inner, n] : {std::array{26, 61}, {5, 8}, {18, 13}}) {
+    const RowMatrix A = drawn(inner, padded(n + 1), random), before = drawn(n, padded(n + 1), random);
+    RowMatrix C = before;
+    dense_->add_upper(rows(C), rows(A), n, rows(A), padded(n + 1), inner, -1.0);
+    const RowMatrix expected = before - A.leftCols(n).transpose() * A;
+    for (int i = 0; i < n; ++i)
+      for (int j = i; j < padded(n + 1); ++j) ASSERT_NEAR(C(i, j), expected(i, j), 1e-12) << i << " " << j;
+  }
+}
+
 TEST_P(DenseRowsOf, TriangularSolutionsAreThoseOfTheFactor) {
   Random random(11);
   for (const int n : {1, 6, 26}) {
     const RowMatrix root = drawn(n, n + 4, random);
     const RowMatrix L = Eigen::LLT<RowMatrix>(RowMatrix(root * root.transpose())).matrixL();
-    const RowMatrix right = drawn(n, 24 + 8, random);
-    RowMatrix R = right;
-    dense_->forward(rows(L), n, rows(R), 24);
-    EXPECT_EQ(R.rightCols(8), right.rightCols(8)) << "beyond the columns asked for";
-    EXPECT_LT((L * R - right).leftCols(24).cwiseAbs().maxCoeff(), 1e-11) << n;
-    const RowMatrix half = R;
-    dense_->backward(rows(L), n, rows(R), 24);
-    EXPECT_LT((L.transpose() * R - half).leftCols(24).cwiseAbs().maxCoeff(), 1e-9) << n;
+    for (const int columns : {8, 24, 104}) {
+      const RowMatrix right = drawn(n, columns + 8, random);
+      RowMatrix R = right;
+      dense_->forward(rows(L), n, rows(R), columns);
+      EXPECT_EQ(R.rightCols(8), right.rightCols(8)) << "beyond the columns asked for";
+      EXPECT_LT((L * R - right).leftCols(columns).cwiseAbs().maxCoeff(), 1e-11) << n;
+      const RowMatrix half = R;
+      dense_->backward(rows(L), n, rows(R), columns);
+      EXPECT_LT((L.transpose() * R - half).leftCols(columns).cwiseAbs().maxCoeff(), 1e-9) << n;
+    }
   }
 }
 

@@ -25,6 +25,8 @@ struct ConstRows {
 struct DenseRows {
   /// C += sign A'B: `inner` rows of A and B, `rows` of C.
   void (*add_products)(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign);
+  /// The same where C is symmetric over its rows: what is left of the diagonal is none of it, or not whole.
+  void (*add_upper)(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign);
   /// L^-1 R in place of R, with L lower triangular, n x n.
   void (*forward)(ConstRows L, int n, Rows R, int columns);
   /// L^-T R in place of R.

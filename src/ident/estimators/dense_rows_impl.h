@@ -9,7 +9,7 @@ namespace ident {
 template <class Isa>
 class DenseRowsOf {
  public:
-  static constexpr DenseRows table() { return {add_products, forward, backward}; }
+  static constexpr DenseRows table() { return {add_products, add_upper, forward, backward}; }
 
  private:
   static constexpr int kWidth = Isa::kWidth;
@@ -25,6 +25,14 @@ class DenseRowsOf {
     int j = 0;
     for (; j + 3 * kWidth <= columns; j += 3 * kWidth) panel<3>(C, A, rows, B, j, inner, sign);
     for (; j < columns; j += kWidth) panel<1>(C, A, rows, B, j, inner, sign);
+  }
+
+  static void add_upper(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign) {
+    const auto above = [rows](int end) { return end < rows ? end : rows; };
+    int j = 0;
+    for (; j + 3 * kWidth <= columns; j += 3 * kWidth)
+      panel<3>(C, A, above(j + 3 * kWidth), B, j, inner, sign);
+    for (; j < columns; j += kWidth) panel<1>(C, A, above(j + kWidth), B, j, inner, sign);
   }
 
   // J packs of columns from `column` on.
@@ -54,34 +62,49 @@ class DenseRowsOf {
       for (int j = 0; j < J; ++j) at(C.data + (row + i) * C.stride + column, j) += sign * sum[i][j];
   }
 
+  // Packs of columns that are solved together: sums that do not wait for each other.
+  static constexpr int kFew = kRowPad / kWidth, kMany = kFew < 4 ? 4 * kFew : 2 * kFew;
+
   static void forward(ConstRows L, int n, Rows R, int columns) {
-    for (int column = 0; column < columns; column += kRowPad)
-      for (int i = 0; i < n; ++i)
-        solve_row(R, i, column, 0, i, L.data + i * L.stride, 1, L.data[i * L.stride + i]);
+    int column = 0;
+    for (; column + kMany * kWidth <= columns; column += kMany * kWidth) forward<kMany>(L, n, R, column);
+    for (; column < columns; column += kRowPad) forward<kFew>(L, n, R, column);
+  }
+
+  template <int J>
+  static void forward(ConstRows L, int n, Rows R, int column) {
+    for (int i = 0; i < n; ++i)
+      solve_row<J>(R, i, column, 0, i, L.data + i * L.stride, 1, L.data[i * L.stride + i]);
   }
 
   static void backward(ConstRows L, int n, Rows R, int columns) {
-    for (int column = 0; column < columns; column += kRowPad)
-      for (int i = n - 1; i >= 0; --i)
-        solve_row(R, i, column, i + 1, n, L.data + i, L.stride, L.data[i * L.stride + i]);
+    int column = 0;
+    for (; column + kMany * kWidth <= columns; column += kMany * kWidth) backward<kMany>(L, n, R, column);
+    for (; column < columns; column += kRowPad) backward<kFew>(L, n, R, column);
+  }
+
+  template <int J>
+  static void backward(ConstRows L, int n, Rows R, int column) {
+    for (int i = n - 1; i >= 0; --i)
+      solve_row<J>(R, i, column, i + 1, n, L.data + i, L.stride, L.data[i * L.stride + i]);
   }
 
   // Row i of R less the rows [from, to) times their coefficients, over the pivot.
+  template <int J>
   static void solve_row(Rows R, int i, int column, int from, int to, const double* coefficient,
                         std::ptrdiff_t stride, double pivot) {
-    constexpr int J = kRowPad / kWidth;
     double* own = R.data + i * R.stride + column;
     Pack x[J];
-#pragma GCC unroll 4
+#pragma GCC unroll 8
     for (int j = 0; j < J; ++j) x[j] = at(own, j);
     for (int k = from; k < to; ++k) {
       const double c = coefficient[k * stride];
       const double* other = R.data + k * R.stride + column;
-#pragma GCC unroll 4
+#pragma GCC unroll 8
       for (int j = 0; j < J; ++j) x[j] -= c * at(other, j);
     }
     const double inverse = 1.0 / pivot;
-#pragma GCC unroll 4
+#pragma GCC unroll 8
     for (int j = 0; j < J; ++j) at(own, j) = inverse * x[j];
   }
 };

@@ -55,7 +55,7 @@ struct FlightSmoother::Sweep {
   Matrix E, WE;      // slope of the link, and weighted, with the weighted defect
   Matrix U;          // over the state that is next in the sweep
   Matrix solved;     // [U | B f], then L^-1 of it, then D^-1 of it
-  Matrix sum;        // [S g]
+  Matrix sum;        // [S g], of S what is right of its diagonal
   double cost = 0.0, fall = 0.0, log_det = 0.0;
 };
 
@@ -130,7 +130,7 @@ void FlightSmoother::add_link(std::size_t k, Sweep& at, bool forward, const Vect
   dense.add_products(rows_of(before), E(0), n, WE(0), from + at.shared, n, 1.0);
   after.leftCols(n).diagonal() += W;
   after.middleCols(from, m + 1) -= at.WE.middleCols(from, m + 1);
-  dense.add_products(rows_of(at.sum), E(from), m, WE(from), at.shared, n, 1.0);
+  dense.add_upper(rows_of(at.sum), E(from), m, WE(from), at.shared, n, 1.0);
   at.cost += d.dot(W.cwiseProduct(d));
   at.log_det -= W.array().log().sum();
   if (forward)
@@ -158,7 +158,7 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
     at.solved.leftCols(from).setZero();
   at.solved.middleCols(from, at.shared) = at.own.rightCols(at.shared);
   dense.forward(rows_in(L), n, rows_of(at.solved), right);
-  dense.add_products(rows_of(at.sum), solved(from), m, solved(from), at.shared, n, -1.0);
+  dense.add_upper(rows_of(at.sum), solved(from), m, solved(from), at.shared, n, -1.0);
   at.fall += at.solved.col(from + m).squaredNorm();
   if (linked) dense.add_products(rows_of(at.next), solved(0), n, solved(0), right, n, -1.0);
   dense.backward(rows_in(L), n, rows_of(at.solved), right);
@@ -214,7 +214,7 @@ void FlightSmoother::eliminate(const VectorXd* held) {
     reduced_.cost += part.cost, reduced_.fall += part.fall, reduced_.log_det += part.log_det;
     reduced_.g += part.g, reduced_.S += part.S;
   }
-  reduced_.S = 0.5 * (reduced_.S + reduced_.S.transpose()).eval();
+  reduced_.S.triangularView<Eigen::StrictlyLower>() = reduced_.S.transpose();
 }
 
 // Covariance of the state of chunk k, from what was eliminated before it.

@@ -19,14 +19,27 @@ namespace {
 // Gusts are not slower than this, s: what stays longer is a cause to be found, not noise.
 constexpr double kSlowest = 4.0;
 // The shared unknowns, which noise moves little and which make elimination twice as dear, are held for so
-// many rounds.
+// many rounds; many of them, the causes of a diagnosis, make it four times as dear.
 constexpr int kHeld = 4;
-constexpr Index kManyShared = 40;     // of the causes of a diagnosis
+constexpr Index kManyShared = 40;
 constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
 // A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
 constexpr double kNothing = 1e-11;
 // Share of the innovations that the data determine below which there might as well be none.
 constexpr double kHardlyTold = 0.01;
+
+// How much longer than those of expectation maximisation, which are short, the steps of a logarithm are: less
+// once they lead to and fro, for sigma follows the time and the time sigma.
+struct Pace {
+  static constexpr double kFastest = 1.8, kLongest = 1.6;
+  double factor = kFastest, last = 0.0;
+
+  double step(double wanted) {
+    if (wanted * last < 0) factor *= 0.5;
+    last = wanted;
+    return std::clamp(factor * wanted, -kLongest, kLongest);
+  }
+};
 
 // Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown. Where
 // the error of the input is part of a link, the link counts by the share of the process in its variance.
@@ -50,9 +63,9 @@ struct ProcessMoments {
     seconds += h, count += weight, links += 1;
   }
 
-  /// The time by expectation maximisation, sigma by MacKay's fixed point: squared innovations over the number
-  /// of them that the data determine. Gives the relative change of sigma.
-  double update(ColouredNoise& noise) const {
+  /// The time by expectation maximisation, hastened by `pace`; sigma by MacKay's fixed point: squared
+  /// innovations over the number of them that the data determine. Gives the relative change of sigma.
+  double update(ColouredNoise& noise, Pace& pace) const {
     if (links < 8 || noise.sigma <= 0) return 0;
     const double h = seconds / links, variance = noise.sigma * noise.sigma;
     const double told = count - unknown;
@@ -62,8 +75,7 @@ struct ProcessMoments {
     const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
     const bool nothing = variance < kNothing || (ratio < 1 && told < kHardlyTold * count);
     noise.sigma *= std::sqrt(ratio);
-    noise.tau =
-        std::clamp(noise.tau * std::clamp(std::pow(tau / noise.tau, 1.8), 0.2, 5.0), 0.3 * h, kSlowest);
+    noise.tau = std::clamp(noise.tau * std::exp(pace.step(std::log(tau / noise.tau))), 0.3 * h, kSlowest);
     return nothing ? 0 : std::abs(std::sqrt(ratio) - 1);
   }
 };
@@ -102,8 +114,10 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
   const int n = layout.size;
   double change = 0;
   VectorXd du;
+  std::vector<std::array<Pace, 6>> paces(noise_.air.size());
   for (int round = 0; round < rounds; ++round) {
-    const bool again = round % kHeld == 0 || round == 2 || (round == 1 && shared() < kManyShared);
+    const bool many = shared() >= kManyShared;
+    const bool again = many ? round == 0 || round == 3 : round % kHeld == 0 || round <= 2;
     if (round > 0) eliminate(again ? nullptr : &du);
     if (again) du = shared_optimum();
     Elimination& el = last();
@@ -145,8 +159,8 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
     change = 0;
     for (std::size_t log = 0; log < logs.size(); ++log)
       for (std::size_t i = 0; i < 3; ++i)
-        change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i]),
-                           logs[log].push[i].update(noise_.air[log].v_dot[i])});
+        change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i], paces[log][i]),
+                           logs[log].push[i].update(noise_.air[log].v_dot[i], paces[log][3 + i])});
     if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
       const double determined = std::max(motors_determined, 0.01 * links);
       const double ratio = std::clamp(motors / determined, 0.02, 50.0);
@@ -214,21 +228,25 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
   begin.push_back(K);
   in_parallel(blocks.size(), [&](std::size_t b) {
     VectorXd score = VectorXd::Zero(columns);
-    chunk::RowMatrix F = chunk::RowMatrix::Zero(m, columns), AT(n + own, columns), WS(n, columns);
-    chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + columns), Et(n, n), slope(n, columns);
-    chunk::RowMatrix T = chunk::RowMatrix::Zero(n + own, columns);  // profiles act through links only
-    T.bottomRows(own).leftCols(own).setIdentity();
+    chunk::RowMatrix F = chunk::RowMatrix::Zero(m, columns), across(n, columns), along(n, columns);
+    chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + columns), Et(n, n), slope(n, columns),
+                     WS(n, columns);
     for (std::size_t k = begin[b]; k < begin[b + 1]; ++k) {
-      T.topRows(n) = dX[k];
-      score.noalias() += T.transpose() * chunk::g(results_[k]);
-      AT.setZero();
-      dense.add_products(rows_of(AT), rows_in(chunk::A(results_[k])), n + own, rows_in(T), columns, n + own,
-                         1.0);
-      dense.add_products(rows_of(F), rows_in(T), m, rows_in(AT), columns, n + own, 1.0);
+      // Rows are about the state, which follows dX, and theta; profiles act through links only.
+      const chunk::ConstRowMap A = chunk::A(results_[k]);
+      score.noalias() += dX[k].transpose() * chunk::g(results_[k]).head(n);
+      score.head(own) += chunk::g(results_[k]).tail(own);
+      across.setZero();
+      across.leftCols(own) = A.topRightCorner(n, own);
+      dense.add_upper(rows_of(F), rows_in(across), own, rows_in(dX[k]), columns, n, 1.0);
+      along = across;
+      dense.add_products(rows_of(along), rows_in(A), n, rows_in(dX[k]), columns, n, 1.0);
+      dense.add_upper(rows_of(F), rows_in(dX[k]), m, rows_in(along), columns, n, 1.0);
+      F.topLeftCorner(own, own) += A.bottomRightCorner(own, own);
       const auto add = [&](const VectorXd& W, const VectorXd& d) {
         score.noalias() += slope.transpose() * W.cwiseProduct(d);
         WS = W.asDiagonal() * slope;
-        dense.add_products(rows_of(F), rows_in(slope), m, rows_in(WS), columns, n, 1.0);
+        dense.add_upper(rows_of(F), rows_in(slope), m, rows_in(WS), columns, n, 1.0);
       };
       if (k == 0 || !places_[k - 1].linked) {
         slope = dX[k];
@@ -243,7 +261,7 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
       add(link_weight(k), defect(k));
     }
     blocks[b].score = score.head(m);
-    blocks[b].information = F.leftCols(m);
+    blocks[b].information = F.leftCols(m).selfadjointView<Eigen::Upper>();
   });
   return blocks;
 }
