@@ -59,14 +59,14 @@ TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
   EXPECT_NEAR(beside.cost, fit.cost, 0.01);
 }
 
-TEST(FlightFit, AnIntegratorOfLowerOrderServesWhereItDoesNotShow) {
+TEST(FlightFit, LongStepsServeWhereTheyDoNotShow) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
   simulated.duration = 20.0;
   FlightFitOptions cheap, dear;
   cheap.exact = dear.exact = false;
-  cheap.order = 2;
+  cheap.steps = Steps::longest;
   for (const bool noisy : {true, false}) {
     simulated.noise = noise_level(noisy ? "typical" : "none");
     simulated.turbulence = noisy ? 0.3 : 0.0;
@@ -75,7 +75,7 @@ TEST(FlightFit, AnIntegratorOfLowerOrderServesWhereItDoesNotShow) {
     const FlightRecord record = make_flight_record(vehicle, p, logs);
     const Theta theta(p, free_constants(vehicle, p), record.logs, true);
     const FlightFit fit = fit_flight(record, theta, cheap), by_four = fit_flight(record, theta, dear);
-    EXPECT_EQ(fit.smoother->order(), noisy ? 2 : 4);
+    EXPECT_EQ(fit.smoother->steps() == Steps::fine, !noisy);
     for (int i = 0; i < theta.constants_count() && noisy; ++i)
       EXPECT_LT(std::abs(fit.u[i] - by_four.u[i]), 0.3 * std::sqrt(by_four.covariance(i, i)))
           << theta.name(i);

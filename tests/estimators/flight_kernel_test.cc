@@ -110,6 +110,40 @@ TEST(FlightKernel, ExactSlopesAgreeWithQuickOnes) {
   EXPECT_GT(apart, 0.0);
 }
 
+// Long steps pass rows, prompt ones and those that a delay shifts; none is lost, and what is predicted there
+// is what steps from row to row predict.
+TEST(FlightKernel, LongStepsSeeTheRowsThatTheyPass) {
+  Setting s;
+  std::vector<double> constants;
+  for (const double shift : {0.0, 0.0153}) {
+    ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.05), constants);
+    task.shift = shift;
+    task.huber = 1e9, task.exact = true;
+    ChunkResult fine, longest, apart;
+    evaluate_chunk(task, fine);
+    task.steps = Steps::longest;
+    evaluate_chunk(task, longest);
+    EXPECT_EQ(longest.count, fine.count) << shift;
+    EXPECT_NEAR(longest.cost, fine.cost, 1e-4 * fine.cost) << shift;
+    const auto d = static_cast<std::size_t>(s.record.layout.size + s.theta.size());
+    for (std::size_t i = 0; i < d; ++i)
+      EXPECT_NEAR(longest.A[i * d + i], fine.A[i * d + i], 2e-3 * fine.A[i * d + i]) << shift << " " << i;
+    task.jacobian = false;
+    evaluate_chunk(task, longest);
+    task.steps = Steps::fine;
+    evaluate_chunk(task, fine);
+    double most = 0, differs = 0;
+    for (std::size_t i = 0; i < fine.residuals.size(); ++i) {
+      if (!std::isfinite(fine.residuals[i])) continue;
+      ASSERT_TRUE(std::isfinite(longest.residuals[i])) << i;
+      most = std::max(most, std::abs(fine.residuals[i]));
+      differs = std::max(differs, std::abs(longest.residuals[i] - fine.residuals[i]));
+    }
+    EXPECT_LT(differs, 1e-3 * most) << shift;
+    EXPECT_GT(differs, 0.0) << "the same steps";
+  }
+}
+
 TEST(FlightKernel, GradientIsThatOfTheCost) {
   Setting s;
   std::vector<double> constants;

@@ -3,7 +3,7 @@
 
 #include "ident/core/random.h"
 #include "ident/effects/catalogue.h"
-#include "ident/model/flight.h"
+#include "ident/model/within_step.h"
 #include "support/random_vehicle.h"
 #include "support/restless_commands.h"
 
@@ -140,6 +140,42 @@ TEST(Laws, StepsConvergeAsTheirOrderSays) {
     for (const int order : {2, 4}) {
       const double coarse = (turned(order, 100) - exact).norm(), fine = (turned(order, 200) - exact).norm();
       EXPECT_NEAR(std::log2(coarse / fine), order, 0.5) << vehicle.name;
+    }
+  }
+}
+
+// What is read off a long step half way and elsewhere is where short steps lead.
+TEST(Laws, WithinALongStepItIsWhereShortOnesLead) {
+  const NoEffects none;
+  constexpr double h = 8e-3;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Vehicle vehicle = random_vehicle(seed);
+    std::vector<double> p = parameter_vector(vehicle);
+    p[param::dead_time] = 0.0;
+    const FlightInputs inputs = restless_commands(vehicle.rotors.size());
+    const FlightState<double> start = moving_state(p, vehicle.rotors.size());
+    Flight<double> flight(vehicle, p, none, inputs), exact(vehicle, p, none, inputs);
+    flight.step_to_order(2);
+    FlightState<double> end = start, x = start;
+    StepMiddle<double> middle;
+    const BodyRate<double> at_start = flight.rate(x, 0.0);
+    BodyRate<double> rate = at_start, now = at_start;
+    flight.step_on(end, 0.0, h, rate, middle);
+    const WithinStep<double> within(h, start, at_start, middle, end, rate);
+    EXPECT_LT((within.body(1.0).w_B - end.body.w_B).norm(), 1e-13) << vehicle.name;
+    EXPECT_EQ(within.body(0.0).w_B, start.body.w_B);
+    constexpr int kShort = 80;
+    for (int i = 1; i < kShort; ++i) {
+      exact.step_on(x, (i - 1) * h / kShort, h / kShort, now);
+      const double u = static_cast<double>(i) / kShort, changes = (rate.f_B - at_start.f_B).norm();
+      const BodyState<double> here = within.body(u);
+      EXPECT_LT((here.w_B - x.body.w_B).norm(), 5e-2 * h * (1 + at_start.w_dot_B.norm())) << u;
+      EXPECT_LT((here.q_WB - x.body.q_WB).norm(), 1e-4) << u;
+      EXPECT_LT((here.v_W - x.body.v_W).norm(), 1e-3 * h * at_start.v_dot_W.norm()) << u;
+      EXPECT_LT((here.x_W - x.body.x_W).norm(), 1e-4) << u;
+      EXPECT_LT((within.rate(u).f_B - now.f_B).norm(), 0.03 * (changes + 0.1)) << u;
+      for (std::size_t n = 0; n < vehicle.rotors.size(); ++n)
+        EXPECT_NEAR(within.speed(u, n), x.motors[n].Omega, 1e-3 * x.motors[n].Omega) << u;
     }
   }
 }

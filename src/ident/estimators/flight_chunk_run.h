@@ -3,6 +3,7 @@
 
 #include "ident/core/dual.h"
 #include "ident/estimators/flight_kernel.h"
+#include "ident/model/within_step.h"
 
 namespace ident {
 
@@ -24,7 +25,7 @@ class ChunkRun {
   ChunkRun(const ChunkTask& task, std::span<const S> p, EffectMask effects, const S* bias)
       : task_(task), effects_(p, effects), flight_(*task.vehicle, p, effects_, *task.inputs), bias_(bias) {
     flight_.feel_outside(task.layout.w_dot >= 0);
-    flight_.step_to_order(task.order);
+    flight_.step_to_order(task.steps == Steps::fine ? 4 : 2);
   }
 
   /// Attitude at the row that was handed to the sink last (specific force, velocity, position).
@@ -39,25 +40,32 @@ class ChunkRun {
     const std::size_t last = task_.end;
     BodyRate<S> rate = flight_.rate(x, t[task_.begin]);
     std::size_t delayed_row = first_delayed_row();
-    for (std::size_t i = task_.begin; i < last; ++i) {
+    for (std::size_t i = task_.begin, next = i; i < last; i = next) {
       prompt_channels(i, x, rate, sink);
       if (task_.shift == 0) delayed_channels(i, x.body.w_B, rate.w_dot_B, x.body.q_WB, sink, rate);
-      const int parts = 1 + static_cast<int>((t[i + 1] - t[i]) / task_.max_step);
-      const double h = (t[i + 1] - t[i]) / parts;
+      next = row_after(i);
+      const int parts = 1 + static_cast<int>((t[next] - t[i]) / longest_step());
+      const double h = (t[next] - t[i]) / parts;
       for (int part = 0; part < parts; ++part) {
         const double from = t[i] + part * h;
-        if (task_.shift == 0) {
+        if (task_.shift == 0 && next == i + 1) {
           flight_.step_on(x, from, h, rate);
           continue;
         }
         const FlightState<S> before = x;
         const BodyRate<S> rate_before = rate;
-        flight_.step_on(x, from, h, rate);
-        const double to = part + 1 == parts ? t[i + 1] : from + h;
-        while (delayed_row < rows_end() && t[delayed_row] - task_.shift < to) {
-          interpolated_channels(delayed_row, (t[delayed_row] - task_.shift - from) / h, h, before,
-                                rate_before, x, rate, sink);
-          ++delayed_row;
+        StepMiddle<S> middle;
+        flight_.step_on(x, from, h, rate, middle);
+        const WithinStep<S> within(h, before, rate_before, middle, x, rate);
+        if (next > i + 1) rows_within(i + 1, next, within, from, h, sink);
+        if (task_.shift == 0) continue;
+        const double to = part + 1 == parts ? t[next] : from + h;
+        for (; delayed_row < rows_end() && t[delayed_row] - task_.shift < to; ++delayed_row) {
+          const double u = (t[delayed_row] - task_.shift - from) / h;
+          if (task_.steps == Steps::fine)
+            interpolated_channels(delayed_row, u, h, before, rate_before, x, rate, sink);
+          else
+            delayed_channels_within(delayed_row, u, within, sink);
         }
       }
     }
@@ -66,6 +74,46 @@ class ChunkRun {
 
  private:
   std::size_t rows_end() const { return task_.rows; }
+
+  // Speeds that were measured are no smoother than their rows.
+  bool long_steps() const { return task_.steps == Steps::longest && task_.inputs->commanded(); }
+  double longest_step() const {
+    return long_steps() && kLongStep > task_.max_step ? kLongStep : task_.max_step;
+  }
+
+  // The row up to which one step reaches.
+  std::size_t row_after(std::size_t i) const {
+    std::size_t next = i + 1;
+    while (long_steps() && next < task_.end && task_.t[next + 1] - task_.t[i] < longest_step()) ++next;
+    return next;
+  }
+
+  // Rows that one step passes.
+  template <class Sink>
+  void rows_within(std::size_t begin, std::size_t end, const WithinStep<S>& step, double from, double h,
+                   Sink& sink) {
+    const FlightState<S>* after = now_;
+    FlightState<S> here;
+    now_ = &here;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double u = (task_.t[i] - from) / h;
+      here.body = step.body(u);
+      for (int n = 0; n < task_.layout.rotors && task_.layout.motors >= 0; ++n)
+        if (sampled(i, kRotorChannel + n))
+          here.motors[static_cast<std::size_t>(n)].Omega = step.speed(u, static_cast<std::size_t>(n));
+      const BodyRate<S> rate = step.rate(u);
+      prompt_channels(i, here, rate, sink);
+      if (task_.shift == 0) delayed_channels(i, here.body.w_B, rate.w_dot_B, here.body.q_WB, sink, rate);
+    }
+    now_ = after;
+  }
+
+  template <class Sink>
+  void delayed_channels_within(std::size_t row, double u, const WithinStep<S>& step, Sink& sink) {
+    const BodyState<S> body = step.body(u);
+    const BodyRate<S> rate = step.rate(u);
+    delayed_channels(row, body.w_B, rate.w_dot_B, body.q_WB, sink, rate);
+  }
 
   std::size_t first_delayed_row() const {
     std::size_t row = task_.begin;

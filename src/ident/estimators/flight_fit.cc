@@ -27,8 +27,8 @@ constexpr double kHeldChunk = 0.2, kSureChunk = 0.1;  // lengths of the first ch
 // are most of a fit, and few are left once it is nearly known.
 constexpr double kLong = 30.0, kExcerpt = 15.0, kStretch = 4.0;
 constexpr double kLeastShare = 0.1, kMostShare = 0.25;
-// Fall of the cost that an integrator of lower order may feign.
-constexpr double kOfOrder = 1.0;
+// Fall of the cost that steps of lower order may feign.
+constexpr double kOfSteps = 1.0;
 constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise bring that down again
 
 using Eigen::MatrixXd;
@@ -65,11 +65,7 @@ VectorXd start_of(const Theta& theta, const FlightFitOptions& options) {
 class Fitting {
  public:
   Fitting(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options)
-      : record_(record),
-        theta_(theta),
-        options_(options),
-        u_(start_of(theta, options)),
-        order_(options.order) {}
+      : record_(record), theta_(theta), options_(options), u_(start_of(theta, options)), by_(options.steps) {}
 
   /// From what was measured and stated.
   void begin() {
@@ -90,9 +86,9 @@ class Fitting {
   /// From where the fit of an excerpt ended; false where that is far from anything here.
   bool go_on_from(const Fitting& excerpt) {
     u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
-    // The end has to be of order 4: what is found here by order 2 would have to be found once more.
-    order_ = options_.exact ? 4 : excerpt.order_;
-    restart(excerpt.smoother_->noise(), 1);
+    // The end has to be of fine steps: what is found here by others would have to be found once more.
+    by_ = options_.exact ? Steps::fine : excerpt.by_;
+    restart(excerpt.smoother_->noise(), 1, near());
     if (!(square_of(*smoother_) < kFar)) {
       u_ = start_of(theta_, options_), axes_chosen_ = false, steps_ = 0;
       return false;
@@ -116,7 +112,7 @@ class Fitting {
           options_.chunk_seconds > 0 ? chunk_ : chunk_for(record_, smoother_->noise(), options_.fine_gusts);
       if (round < 2 && (wanted > 1.5 * chunk_ || wanted < chunk_ / 1.5)) {
         chunk_ = wanted;
-        restart(smoother_->noise());
+        restart(smoother_->noise(), 2, smoother_.get());
       }
       tell(static_cast<double>(round + 1) / options_.noise_rounds);
       bool turned = false;
@@ -141,19 +137,22 @@ class Fitting {
     }
   }
 
-  /// Whether there is so little noise that the integrator's order shows, in `times` as much flight. It is 4
-  /// from then on.
-  bool order_shows(double times = 1.0) {
-    if (order_ == 4 || !(times * smoother_->worth_of_order() > kOfOrder)) return false;
-    order_ = 4;
-    smoother_->set_order(order_);
-    return true;
+  /// Whether there is so little noise that it shows how flight is simulated, in `times` as much flight; by
+  /// finer steps from then on.
+  bool steps_show(double times = 1.0) {
+    bool shown = false;
+    while (by_ != Steps::fine && times * smoother_->worth_of_fine_steps() > kOfSteps) {
+      shown = true;
+      by_ = by_ == Steps::longest ? Steps::coarse : Steps::fine;
+      smoother_->set_steps(by_);
+    }
+    return shown;
   }
 
   FlightFit finish() {
     if (gave_up()) return unfinished();
     smoother_->set_gentle(false);
-    if (options_.exact) smoother_->set_order(4);
+    if (options_.exact) smoother_->set_steps(Steps::fine);
     // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
     if (!is_finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
     const SharedMinimum at = minimise_shared(*smoother_, u_, worth_a_step(*smoother_, options_),
@@ -180,18 +179,24 @@ class Fitting {
   void start() {
     smoother_ = std::make_shared<FlightSmoother>(
         record_, theta_, options_.noise.value_or(initial_noise(record_)), chunk_, options_.threads);
-    smoother_->set_order(order_);
+    smoother_->set_steps(by_);
     // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
     smoother_->set_huber(options_.estimate_noise || !options_.robust ? 1e9 : kHuber);
-    if (options_.near && options_.near->chunks().size() == smoother_->chunks().size())
-      smoother_->set_states(options_.near->states());
+    if (near()) smoother_->start_from(*near());
     smoother_->settle(u_, 1);
   }
-  void restart(const NoiseModel& noise, int rounds = 2) {
-    smoother_ = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
-    smoother_->set_order(order_);
-    smoother_->set_huber(options_.robust ? kHuber : 1e9);
+  // From the states that were measured, or those of `from`.
+  void restart(const NoiseModel& noise, int rounds = 2, const FlightSmoother* from = nullptr) {
+    auto next = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
+    next->set_steps(by_);
+    next->set_huber(options_.robust ? kHuber : 1e9);
+    if (from) next->start_from(*from);
+    smoother_ = std::move(next);
     smoother_->settle(u_, rounds);
+  }
+  // What there is of a like model, over the same record.
+  const FlightSmoother* near() const {
+    return options_.near && &options_.near->record() == &record_ ? options_.near.get() : nullptr;
   }
   void trust_region(const TrustRegion& region) {
     const SharedMinimum at = by_trust_region(*smoother_, u_, region);
@@ -203,7 +208,7 @@ class Fitting {
   const FlightFitOptions& options_;
   VectorXd u_;
   std::shared_ptr<FlightSmoother> smoother_;
-  int order_;
+  Steps by_;  // which flight is simulated
   double chunk_ = 0.0;
   int steps_ = 0;
   bool gone_on_ = false;                           // from an excerpt, which knew the noise
@@ -233,7 +238,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         Fitting first(excerpt, theta, options);
         first.begin();
         first.find_noise(tell(0.1, 0.4));
-        if (!options.exact) first.order_shows(record.duration / excerpt.duration);
+        if (!options.exact) first.steps_show(record.duration / excerpt.duration);
         begun = fitting.go_on_from(first);
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }
@@ -241,7 +246,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
   if (!begun) fitting.begin();
   if (options.estimate_noise) {
     fitting.find_noise(tell(0.4, 0.8));
-    if (!begun && fitting.order_shows()) fitting.find_noise(tell(0.6, 0.8));
+    if (!begun && fitting.steps_show()) fitting.find_noise(tell(0.6, 0.8));
   }
   FlightFit fit = fitting.finish();
   tell(0, 1)(1.0);

@@ -23,8 +23,8 @@ struct FlightFitOptions {
   double block_seconds = 2.0;  ///< of the sandwich covariance
   double tolerance = 0.01;     ///< fall of the cost (twice the log likelihood) that is worth no evaluation
   double tolerance_of_misfit = 0.0;  ///< the same as a share of the cost beyond that of noise alone
-  bool exact = true;  ///< ends with steps of order 4, and slopes as precise as shows: see finish_fit
-  int order = 4;      ///< of the integrator's steps until then; 2, which costs less, where that does not show
+  bool exact = true;                 ///< ends with fine steps, and slopes as precise as shows: see finish_fit
+  Steps steps = Steps::fine;         ///< until then; others, which cost less, only where that does not show
   std::shared_ptr<const FlightSmoother> near;  ///< of a like model, whose states to start from
   int threads = 0;
   std::function<void(double)> progress;  ///< share done
@@ -54,7 +54,7 @@ double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& opti
 
 /// Brings a fit to where less than `options.tolerance` of a fall is left, finds its information and
 /// covariance there, and takes what is left by one more step of Newton's, which is not evaluated. Steps are
-/// of order 4 if it is to be exact, and slopes then in double precision where the rounding of single
+/// fine ones if it is to be exact, and slopes then in double precision where the rounding of single
 /// precision would pass for information. For a fit that was made with a larger tolerance.
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
 

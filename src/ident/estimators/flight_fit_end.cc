@@ -67,7 +67,7 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
     return true;
   };
   const auto covariance = [&] { return inverse_of(smoother.reduced().S + prior_information(theta, fit.u)); };
-  if (options.exact) smoother.set_order(4);
+  if (options.exact) smoother.set_steps(Steps::fine);
   // Slopes in single precision may be too coarse to simulate anything.
   if (!minimum(false) || (options.exact && rounding_shows(smoother, covariance()))) minimum(true);
   fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();

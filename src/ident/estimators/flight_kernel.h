@@ -44,6 +44,10 @@ struct Seed {
   EffectMask effect = 0;  ///< the one that the constant belongs to
 };
 
+/// How flight is simulated: by Runge-Kutta 4 from row to row; by steps of order 2, at half the cost; by such
+/// steps over several rows, as long as motors bear.
+enum class Steps { fine, coarse, longest };
+
 struct ChunkTask {
   const Vehicle* vehicle = nullptr;
   const FlightInputs* inputs = nullptr;
@@ -67,8 +71,8 @@ struct ChunkTask {
   bool few_leverages = false;          ///< those of every third sample stand for their neighbours
   bool exact = false;                  ///< slopes in double precision, at twice the cost
   const double* covariance = nullptr;  ///< of the local state, to compute leverages; or nullptr
-  int order = 4;                       ///< of the steps; 2 at half the cost
-  double max_step = kEstimatorStep;    ///< s; longer steps between rows are split
+  Steps steps = Steps::fine;
+  double max_step = kEstimatorStep;  ///< s; longer steps between rows are split
 };
 
 struct ChunkResult {

@@ -46,7 +46,7 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
                                                            const PredictionOptions& options) {
   const double shortest = *std::ranges::min_element(options.horizons);
   const FlightWindows starts(record, theta, u, noise,
-                             {options.history, options.spacing, shortest, options.threads});
+                             {options.history, options.spacing, shortest, options.steps, options.threads});
   std::vector<std::vector<PredictionWindow>> all(options.horizons.size());
   const auto predict = [&](std::size_t w, double horizon) {
     const FlightArc& arc = record.arcs[starts[w].arc];

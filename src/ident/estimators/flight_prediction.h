@@ -22,6 +22,7 @@ struct PredictionOptions {
   double history = 0.8;  ///< s of data from which the state at the window's start is estimated
   double spacing = 1.0;  ///< s between window starts
   bool floors = true;    ///< without, what a perfect model would have is NaN; at a third of the cost
+  Steps steps = Steps::fine;
   int threads = 0;
 };
 

@@ -185,7 +185,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (is_hover(tested)) held = hold_for_hover(constants);
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
-  fit_options.order = 2;  // on the way to its exact end
+  fit_options.steps = Steps::longest;  // on the way to its exact end
   if (held.empty()) watch_command_offset(constants, vehicle, record, p);
   auto free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
   FlightFit fit = fit_flight(record, *free, fit_options);

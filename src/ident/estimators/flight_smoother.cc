@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "ident/core/parallel.h"
@@ -27,6 +28,10 @@ double sensor_delay_of(const std::vector<double>& p, double interval) {
 // What is tried of a state's step, one after the other, where with all of it nothing flies: a nearly instant
 // motor, say, leaves so little of its state at the start of an arc that the first steps there are wild.
 constexpr std::array kShares = {0.1, 0.0};
+
+// Rounds without a lower cost after which none will come: residuals that are bent where they are gross
+// promise a fall at every step to and fro.
+constexpr int kInVain = 3;
 
 bool flies(const ChunkResult& result) {
   if (!std::isfinite(result.cost) || !result.x_end.body.w_B.allFinite()) return false;
@@ -61,6 +66,31 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
   results_.resize(places_.size());
   set_axes();
   u_ = trial_u_ = VectorXd::Zero(theta.size());
+}
+
+void FlightSmoother::start_from(const FlightSmoother& other) {
+  const std::vector<double> p = other.theta_->p(other.u_);
+  const std::vector<std::vector<Seed>> none(static_cast<std::size_t>(record_->logs));
+  std::array<double, kChannels> weight;
+  for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / other.noise_.sigma[c];
+  std::vector<std::size_t> from(places_.size());  // the chunk of the other one in which each begins
+  for (std::size_t k = 0, at = 0; k < places_.size(); ++k) {
+    while (other.places_[at].arc != places_[k].arc || other.places_[at].end <= places_[k].begin) ++at;
+    from[k] = at;
+  }
+  in_parallel(places_.size(), [&](std::size_t k) {
+    states_[k] = other.states_[from[k]];
+    if (other.places_[from[k]].begin == places_[k].begin) return;
+    ChunkTask one = other.task(from[k], other.u_, p, none);
+    one.x0 = states_[k], one.end = places_[k].begin, one.steps = other.by_;
+    one.weight = weight.data(), one.jacobian = false;
+    ChunkResult result;
+    evaluate_chunk(one, result);
+    const bool flew = result.x_end.body.w_B.allFinite() && result.x_end.body.v_W.allFinite();
+    states_[k] =
+        flew ? result.x_end : record_->arcs[static_cast<std::size_t>(places_[k].arc)].start[places_[k].begin];
+  });
+  set_axes();
 }
 
 void FlightSmoother::set_noise(const NoiseModel& noise) {
@@ -137,7 +167,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
     ChunkTask one = task(k, u, p, seeds);
     one.weight = weight.data();
     one.jacobian = jacobian;
-    one.order = order_, one.exact = exact_, one.few_leverages = true;
+    one.steps = by_, one.exact = exact_, one.few_leverages = true;
     chunk::RowMatrix covariance;
     if (leverage) {
       covariance = accepted().P[k].leftCols(record_->layout.size);
@@ -240,10 +270,14 @@ void FlightSmoother::accept() {
 }
 
 void FlightSmoother::settle(const VectorXd& u, int rounds, double enough) {
-  for (int i = 0; i < rounds; ++i) {
+  double least = std::numeric_limits<double>::infinity();
+  int in_vain = 0;  // rounds one after the other
+  for (int i = 0; i < rounds && in_vain < kInVain; ++i) {
     const ReducedSystem& system = linearize(u);
     accept();
     if (system.fall < enough * system.cost) return;
+    in_vain = system.cost < (1 - enough) * least ? 0 : in_vain + 1;
+    least = std::min(least, system.cost);
   }
 }
 
@@ -271,11 +305,11 @@ std::vector<std::vector<double>> FlightSmoother::residuals() {
   return all;
 }
 
-double FlightSmoother::worth_of_order() {
-  const int present = order_;
+double FlightSmoother::worth_of_fine_steps() {
+  const Steps present = by_;
   std::array<std::vector<std::vector<double>>, 2> by;
   for (std::size_t i = 0; i < 2; ++i) {
-    order_ = (i == 1) == (present == 2) ? 2 : 4;  // the present one last
+    by_ = i == 0 ? Steps::fine : present;
     by[i] = residuals();
   }
   double sum = 0;

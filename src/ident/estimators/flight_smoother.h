@@ -78,7 +78,7 @@ class FlightSmoother {
   /// Makes the last linearisation the one from which states are predicted from now on.
   void accept();
   /// Moves the states to their best for u (`rounds` Gauss-Newton steps, fewer where the next one would change
-  /// less than that share of the cost) and accepts.
+  /// less than that share of the cost, or the last ones did) and accepts.
   void settle(const Eigen::VectorXd& u, int rounds = 2, double enough = 1e-4);
 
   /// Takes over states, from a smoother with the same chunks.
@@ -87,19 +87,21 @@ class FlightSmoother {
     set_axes();
   }
 
+  /// Takes over the states of a smoother of the same record, simulated on to where chunks begin here.
+  void start_from(const FlightSmoother& other);
+
   /// Another noise model; the states stay. After a change of axes the next linearisation has no leverage yet.
   void set_noise(const NoiseModel& noise);
-  /// Slopes in double precision, for a fit to the last digit of exact data, and steps of order 4 from then
-  /// on.
+  /// Slopes in double precision, for a fit to the last digit of exact data, and fine steps from then on.
   void set_exact(bool exact) {
     stands_ = stands_ && exact == exact_, exact_ = exact;
-    if (exact) set_order(4);
+    if (exact) set_steps(Steps::fine);
   }
-  /// Order of the integrator's steps: 4, or 2 for some less cost.
-  void set_order(int order) { stands_ = stands_ && order == order_, order_ = order; }
-  int order() const { return order_; }
-  /// What that changes at the accepted states: sum of the squares of the differences of weighted residuals.
-  double worth_of_order();
+  void set_steps(Steps steps) { stands_ = stands_ && steps == by_, by_ = steps; }
+  Steps steps() const { return by_; }
+  /// What fine steps would change at the accepted states: sum of the squares of the differences of weighted
+  /// residuals.
+  double worth_of_fine_steps();
   /// Steps of states from which nothing flies are shortened. Without, the cost there is no number.
   void set_gentle(bool gentle) { gentle_ = gentle; }
   double huber() const { return huber_; }
@@ -218,7 +220,7 @@ class FlightSmoother {
   double chunk_seconds_;
   int threads_;
   double huber_ = 4.0;
-  int order_ = 4;
+  Steps by_ = Steps::fine;  // which flight is simulated
   bool stands_ = false, exact_ = false, gentle_ = false;
   bool eliminated_ = false;  // the last linearisation, under the present noise, shared unknowns free
   std::vector<ChunkPlace> places_;

@@ -41,6 +41,7 @@ FlightWindows::FlightWindows(const FlightRecord& record, const Theta& theta, con
     : record_(&record),
       theta_(&theta),
       u_(u),
+      steps_(options.steps),
       p_(theta.p(u)),
       windows_(window_starts(record, options)),
       past_(without_arcs(record)) {
@@ -52,6 +53,7 @@ FlightWindows::FlightWindows(const FlightRecord& record, const Theta& theta, con
   fixed_ = std::make_unique<Theta>(p_, std::vector<FreeConstant>{}, 1, false);
   smoother_ = std::make_unique<FlightSmoother>(
       past_, *fixed_, noise, std::clamp(chunk_for(record, noise), 0.04, 0.4), options.threads);
+  smoother_->set_steps(steps_);
   smoother_->settle(Eigen::VectorXd(0), kRounds, kAtTheirBest);
   ends_ = smoother_->arc_ends();
 }
@@ -62,6 +64,7 @@ ChunkTask FlightWindows::task(std::size_t w, double horizon) const {
   task.vehicle = record_->vehicle, task.layout = record_->layout;
   task.p = p_, task.active = active_effects(p_);
   task.weight = weight_.data();
+  task.steps = steps_;
   task.huber = 1e6;  // errors of a wrong model count in full
   task.inputs = arc.inputs.get(), task.gyro_bias = theta_->gyro_bias(u_, arc.log);
   task.begin = windows_[w].row, task.rows = arc.rows();

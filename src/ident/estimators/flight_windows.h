@@ -13,6 +13,7 @@ struct WindowOptions {
   double history = 0.8;   ///< s of data from which the state at the window's start is estimated
   double spacing = 1.0;   ///< s between window starts
   double shortest = 0.1;  ///< s that must be left of the arc
+  Steps steps = Steps::fine;
   int threads = 0;
 };
 
@@ -39,6 +40,7 @@ class FlightWindows {
   const FlightRecord* record_;
   const Theta* theta_;
   Eigen::VectorXd u_;
+  Steps steps_;
   std::vector<double> p_;
   std::array<double, kChannels> weight_{};
   std::vector<FlightWindow> windows_;

@@ -170,7 +170,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   GapClosed gap;
   const Theta& best = *search.best.theta;
   const Eigen::VectorXd u_best = fit_of_training(search.best.fit, record, best, kTrainingShare);
-  const PredictionOptions windows;
+  const PredictionOptions windows{.steps = search.best.fit.smoother->steps()};
   // "Before" is the model as it was given: bench values, with the biases of the fit.
   Eigen::VectorXd stated = search.base.fit.u;
   stated.head(search.base.theta->constants_count()).setZero();

@@ -203,8 +203,8 @@ Rival generic_rival(const FlightRecord& record, const Theta& theta, const Flight
   FlightSmoother smoother(record, theta, floor, std::max(fit.chunk_seconds, kChunk));
   if (smoother.chunks().size() < 60) return rival;
   rival.judged = true;
-  smoother.set_order(fit.smoother->order());
-  if (smoother.chunks().size() == fit.smoother->chunks().size()) smoother.set_states(fit.smoother->states());
+  smoother.set_steps(fit.smoother->steps());
+  smoother.start_from(*fit.smoother);
   smoother.settle(fit.u, kRounds);
   const std::vector<double> p = theta.p(fit.u);
   const double hover =

@@ -48,8 +48,9 @@ class Search {
     s_.out.sets = weighed_sets(s_.now);
     s_.out.alone = s_.steps_here();
     s_.fit.tolerance_of_misfit = 0;
-    s_.now.model.fit.smoother->set_order(4);
+    s_.now.model.fit.smoother->set_steps(Steps::fine);
     finish_fit(s_.now.model.fit, *s_.now.model.theta, s_.fit);
+    s_.now.model.fit.smoother->set_steps(s_.fit.steps);  // for what is asked of the end
     s_.out.best = std::move(s_.now.model);
     s_.out.asked = asked_by_channels(s_.out.best);
     s_.out.problem = std::move(s_.now.problem), s_.out.form = std::move(s_.now.form);
@@ -75,7 +76,7 @@ class Search {
     s_.out.base = fitted(base, {}, s_.record, s_.p, patient);
     if (!stands(s_.out.base))
       throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
-    s_.fit.order = s_.out.base.fit.smoother->order();
+    s_.fit.steps = s_.out.base.fit.smoother->steps();
     s_.tell(0.05, "every cause");
     s_.now = s_.at(s_.out.base);
     if (lag_pulled_far(s_.out.base)) {

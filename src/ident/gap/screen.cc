@@ -113,7 +113,7 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   const Theta theta(fitted.p(fit.u), constants, record.logs, record.signals.rates);
   FlightSmoother smoother(record, theta, fit.noise, fit.chunk_seconds);
   smoother.set_states(fit.smoother->states());
-  smoother.set_order(fit.smoother->order());
+  smoother.set_steps(fit.smoother->steps());
   VectorXd u = VectorXd::Zero(theta.size());
   const int biases = theta.size() - theta.constants_count();
   u.tail(biases) = fit.u.tail(biases);

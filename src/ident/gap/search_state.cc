@@ -25,7 +25,7 @@ SearchState::SearchState(const FlightRecord& of_record, const Vehicle& of_vehicl
   fit.choose_axes = false;  // a force that the model lacks would choose them
   fit.exact = false;        // to a small share of a standard deviation is enough
   fit.rough_noise = true;
-  fit.order = 2;
+  fit.steps = Steps::longest;
   fit.most_steps = kMostSteps;
   fit.tolerance_of_misfit = kOfMisfit;
 }

@@ -35,14 +35,14 @@ bool off(const FittedModel& model, int index, double deviations) {
 // The stated value times a factor at which the flight fits best with all else as stated; NaN where it flies
 // with none.
 double best_start(const FlightRecord& record, const std::vector<double>& p, const NoiseModel& noise,
-                  double chunk_seconds, int order) {
+                  double chunk_seconds, Steps steps) {
   double best = kNaN, least = 1e300;
   for (const double factor : kFactors) {
     std::vector<double> there = p;
     there[param::omega_m] *= factor;
     const Theta theta(there, {}, record.logs, record.signals.rates);
     FlightSmoother smoother(record, theta, noise, chunk_seconds);
-    smoother.set_order(order);
+    smoother.set_steps(steps);
     const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
     smoother.settle(u, 2);
     const double cost = total_cost(smoother, theta, u);
@@ -55,7 +55,7 @@ double best_start(const FlightRecord& record, const std::vector<double>& p, cons
 double misfit(const FlightRecord& record, const FittedModel& model, const NoiseModel& noise) {
   FlightSmoother smoother(record, *model.theta, noise, model.fit.chunk_seconds);
   smoother.set_states(model.fit.smoother->states());
-  smoother.set_order(model.fit.smoother->order());
+  smoother.set_steps(model.fit.smoother->steps());
   smoother.settle(model.fit.u, 2);
   return smoother.linearize(model.fit.u).cost;
 }
@@ -88,7 +88,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   std::vector<FreeConstant> constants = at_hand.constants;
   for (FreeConstant& c : constants) c.start = p[static_cast<std::size_t>(c.index)];
   FreeConstant& omega_m = constants[static_cast<std::size_t>(cause->parameter)];
-  omega_m.start = best_start(record, p, form.noise, again.chunk_seconds, again.order);
+  omega_m.start = best_start(record, p, form.noise, again.chunk_seconds, again.steps);
   if (!std::isfinite(omega_m.start)) return {};
   std::vector<Candidate> causes = at_hand.adopted;
   causes.push_back(*cause);
@@ -103,7 +103,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   if (!stands(out.model)) return {};
   FlightSmoother smoother(record, *at_hand.theta, form.noise, again.chunk_seconds);
   smoother.set_states(at_hand.fit.smoother->states());
-  smoother.set_order(at_hand.fit.smoother->order());
+  smoother.set_steps(at_hand.fit.smoother->steps());
   smoother.settle(at_hand.fit.u, 1);
   out.gain = total_cost(smoother, *at_hand.theta, at_hand.fit.u) - out.model.fit.cost;
   const double found = out.model.theta->physical(out.model.fit.u, cause->parameter);

@@ -15,6 +15,9 @@ inline constexpr double kEstimatorStep = 4.6e-3;
 
 constexpr int kMaxRotors = 8;
 
+/// The same of the longest steps, of order 2, which may reach over several rows of a log.
+inline constexpr double kLongStep = 10.5e-3;
+
 /// What comes from outside over a log: commands or measured rotor speeds, and the battery.
 struct FlightInputs {
   double t0 = 0.0;                         ///< start of the log, s
@@ -32,6 +35,13 @@ struct FlightState {
   BodyState<S> body;
   std::array<MotorState<S>, kMaxRotors> motors{};
   Disturbance<S> outside;
+};
+
+/// Half way through a step: the motors, and the body's rate as the step took it.
+template <class S>
+struct StepMiddle {
+  std::array<MotorState<S>, kMaxRotors> motors;
+  BodyRate<S> rate;
 };
 
 /// The vehicle with one set of constants, able to make steps.
@@ -64,14 +74,19 @@ class Flight {
 
   /// Moves a state h seconds on; `rate` is that at its start, and then that at its end.
   void step_on(FlightState<S>& x, double t, double h, BodyRate<S>& rate) {
-    std::array<MotorState<S>, kMaxRotors> middle;  // of those that the vehicle has
-    advance_motors(x.motors, t, h / 2, middle);
-    advance_motors(middle, t + h / 2, h / 2, x.motors);
-    const std::span<const MotorState<S>> mid(middle.data(), rotors_), end(x.motors.data(), rotors_);
+    StepMiddle<S> middle;
+    step_on(x, t, h, rate, middle);
+  }
+
+  /// The same; `middle` is what a state within the step can be read off, its rate in steps of order 2 only.
+  void step_on(FlightState<S>& x, double t, double h, BodyRate<S>& rate, StepMiddle<S>& middle) {
+    advance_motors(x.motors, t, h / 2, middle.motors);
+    advance_motors(middle.motors, t + h / 2, h / 2, x.motors);
+    const std::span<const MotorState<S>> mid(middle.motors.data(), rotors_), end(x.motors.data(), rotors_);
     if (body_.plain())
-      runge_kutta(x, h, rate, body_.rotor_sums(mid), body_.rotor_sums(end));
+      runge_kutta(x, h, rate, body_.rotor_sums(mid), body_.rotor_sums(end), middle.rate);
     else
-      runge_kutta(x, h, rate, mid, end);
+      runge_kutta(x, h, rate, mid, end, middle.rate);
   }
 
   /// The state h seconds on; `at_start` is the rate of `x`.
@@ -109,11 +124,11 @@ class Flight {
  private:
   // `Rotors`: the motors, or what they sum up to.
   template <class Rotors>
-  void runge_kutta(FlightState<S>& x, double h, BodyRate<S>& rate, const Rotors& mid,
-                   const Rotors& end) const {
+  void runge_kutta(FlightState<S>& x, double h, BodyRate<S>& rate, const Rotors& mid, const Rotors& end,
+                   BodyRate<S>& k2) const {
     const BodyRate<S>& k1 = rate;
     const Disturbance<S>* outside = outside_ ? &x.outside : nullptr;
-    const BodyRate<S> k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
+    k2 = body_.rate(moved(x.body, k1, h / 2), mid, outside);
     if (order_ == 2) return simpson(x, h, rate, k2, end);
     const BodyRate<S> k3 = body_.rate(moved(x.body, k2, h / 2), mid, outside);
     const BodyRate<S> k4 = body_.rate(moved(x.body, k3, h), end, outside);
