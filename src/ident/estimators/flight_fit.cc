@@ -85,6 +85,7 @@ class Fitting {
 
   /// From where the fit of an excerpt ended; false where that is far from anything here.
   bool go_on_from(const Fitting& excerpt) {
+    serves_ = excerpt.by_;
     u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
     // The end has to be of fine steps: what is found here by others would have to be found once more.
     by_ = options_.exact ? Steps::fine : excerpt.by_;
@@ -141,10 +142,11 @@ class Fitting {
   /// finer steps from then on.
   bool steps_show(double times = 1.0) {
     bool shown = false;
+    serves_ = by_;
     while (by_ != Steps::fine && times * smoother_->worth_of_fine_steps() > kOfSteps) {
       shown = true;
       by_ = by_ == Steps::longest ? Steps::coarse : Steps::fine;
-      smoother_->set_steps(by_);
+      smoother_->set_steps(by_), serves_ = by_;
     }
     return shown;
   }
@@ -164,7 +166,7 @@ class Fitting {
     fit.noise = smoother_->noise();
     fit.chunk_seconds = chunk_;
     fit.smoother = smoother_;
-    fit.converged = true;
+    fit.converged = true, fit.serves = serves_;
     finish_fit(fit, theta_, options_);
     return fit;
   }
@@ -209,6 +211,7 @@ class Fitting {
   VectorXd u_;
   std::shared_ptr<FlightSmoother> smoother_;
   Steps by_;  // which flight is simulated
+  Steps serves_ = Steps::fine;
   double chunk_ = 0.0;
   int steps_ = 0;
   bool gone_on_ = false;                           // from an excerpt, which knew the noise
@@ -238,7 +241,7 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         Fitting first(excerpt, theta, options);
         first.begin();
         first.find_noise(tell(0.1, 0.4));
-        if (!options.exact) first.steps_show(record.duration / excerpt.duration);
+        first.steps_show(record.duration / excerpt.duration);
         begun = fitting.go_on_from(first);
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }

@@ -40,6 +40,7 @@ struct FlightFit {
   double chunk_seconds = 0.0;
   int steps = 0;
   bool converged = false;
+  Steps serves = Steps::fine;      ///< those of the options, or finer ones, that do not show in this flight
   std::vector<ScoreBlock> blocks;  ///< what stretches of `block_seconds` say
   std::shared_ptr<FlightSmoother>
       smoother;  ///< before the last small step; refers to the record and theta of the call

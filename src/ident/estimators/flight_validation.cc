@@ -29,7 +29,7 @@ Validation validate_refined(const FlightRecord& held_out, const Theta& theta, co
   Table table{"Prediction error on held-out flight, in noise standard deviations",
               {"horizon s", "parameters before", "refined", "floor", "windows"},
               {}};
-  const PredictionOptions options, errors{.floors = false};
+  const PredictionOptions options{.steps = fit.serves}, errors{.floors = false, .steps = fit.serves};
   const auto stated = predict_windows(held_out, theta, before, fit.noise, errors);
   const auto refined = predict_windows(held_out, theta, fit.u, fit.noise, options);
   bool better = false;
