@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <span>
+#include <utility>
 
+#include "ident/core/parallel.h"
 #include "ident/io/read_flight_log.h"
 #include "ident/io/sha256.h"
 #include "ident/io/vehicle_file.h"
@@ -67,6 +70,24 @@ void refuse_twice(const std::vector<FlightLog>& logs) {
       throw UsageError(last.file + " holds the same flight as " + log.file + ": give each flight once");
 }
 
+/// All at once; of what is wrong with several of them, the first is told.
+std::vector<FlightLog> read_all(const std::vector<CampaignLog>& logs, const Vehicle& vehicle) {
+  std::vector<FlightLog> read(logs.size());
+  std::vector<std::exception_ptr> wrong(logs.size());
+  in_parallel(logs.size(), [&](std::size_t i) {
+    try {
+      std::optional<LogMap> map;
+      if (!logs[i].map.empty()) map = read_log_map(logs[i].map);
+      read[i] = read_flight_log(logs[i].file, vehicle, map);
+    } catch (...) {
+      wrong[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& one : wrong)
+    if (one) std::rethrow_exception(one);
+  return read;
+}
+
 std::string map_of(const FlightOptions& options, std::size_t file) {
   if (options.maps.empty()) return {};
   if (options.maps.size() == 1) return options.maps.front();
@@ -116,15 +137,13 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
   }
   if (logs.empty()) throw UsageError("no flight log: name one, or list `logs` in ident.yaml");
   for (const CampaignLog& log : logs) {
-    std::optional<LogMap> map;
-    if (!log.map.empty()) {
-      map = read_log_map(log.map);
-      context.used.push_back(log.map);
-    }
+    if (!log.map.empty()) context.used.push_back(log.map);
     std::error_code unreadable;                                  // which the reader tells
     if (std::filesystem::is_regular_file(log.file, unreadable))  // a pipe can be read only once
       context.hashes.try_emplace(log.file, std::async(std::launch::async, sha256_of_file, log.file));
-    input.logs.push_back(read_flight_log(log.file, input.vehicle, map));
+  }
+  for (FlightLog& log : read_all(logs, input.vehicle)) {
+    input.logs.push_back(std::move(log));
     refuse_twice(input.logs);
     for (const std::string& notice : input.logs.back().notices) context.notices.push_back(notice);
   }

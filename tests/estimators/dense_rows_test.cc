@@ -78,6 +78,27 @@ TEST_P(DenseRowsOf, TriangularSolutionsAreThoseOfTheFactor) {
   }
 }
 
+TEST_P(DenseRowsOf, RowsAreScaledEachByItsWeightAndAddedToTheLastColumn) {
+  Random random(13);
+  for (const int n : {1, 5, 26}) {
+    const RowMatrix weights = drawn(n, 1, random);
+    for (const int columns : {8, 24, 104}) {
+      const RowMatrix B = drawn(n, columns + 16, random), before = drawn(n, columns + 8, random);
+      RowMatrix C = before;
+      dense_->scale(rows(C), weights.data(), rows(B), n, columns);
+      RowMatrix expected = before;
+      expected.leftCols(columns) = weights.col(0).asDiagonal() * B.leftCols(columns);
+      EXPECT_EQ(C, expected) << n << " " << columns;
+      for (const int odd : {1, columns - 3, columns}) {
+        C = before, expected = before;
+        dense_->add(rows(C), rows(B), n, odd);
+        expected.leftCols(odd) += B.leftCols(odd);
+        EXPECT_EQ(C, expected) << n << " " << odd;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(InstructionSets, DenseRowsOf, testing::Values("baseline", "avx2", "avx512"));
 
 TEST(DenseRows, NoOtherInstructionSetIsKnown) { EXPECT_EQ(dense_rows_with("avx1024"), nullptr); }

@@ -77,6 +77,19 @@ TEST(FlightSmoother, SlowGustsLeadTheirNoiseNotInCircles) {
   }
 }
 
+// Motors that do as they are commanded: what noise of theirs is left below the floor of the links is none, and
+// takes no rounds to become less and less.
+TEST(FlightSmoother, NoiseOfMotorsBelowTheFloorIsNone) {
+  const Gusty flight(20.0);
+  const auto& [vehicle, p, logs, record, theta, u] = flight;
+  NoiseModel noise = initial_noise(record);
+  noise.q_motor = 1e-5;
+  FlightSmoother smoother(record, theta, noise, 0.1);
+  smoother.settle(u, 3);
+  smoother.retune(3);
+  EXPECT_LT(smoother.noise().q_motor, 1e-8);
+}
+
 // The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew
 // on the way there.
 TEST(FlightSmoother, NoiseIsTheSameWithTheSharedUnknownsHeldForSomeRounds) {

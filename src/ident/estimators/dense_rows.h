@@ -31,6 +31,10 @@ struct DenseRows {
   void (*forward)(ConstRows L, int n, Rows R, int columns);
   /// L^-T R in place of R.
   void (*backward)(ConstRows L, int n, Rows R, int columns);
+  /// C = diag(weights) B.
+  void (*scale)(Rows C, const double* weights, ConstRows B, int rows, int columns);
+  /// C += B, of any number of columns.
+  void (*add)(Rows C, ConstRows B, int rows, int columns);
 };
 
 /// The best of this machine.

@@ -9,7 +9,7 @@ namespace ident {
 template <class Isa>
 class DenseRowsOf {
  public:
-  static constexpr DenseRows table() { return {add_products, add_upper, forward, backward}; }
+  static constexpr DenseRows table() { return {add_products, add_upper, forward, backward, scale, add}; }
 
  private:
   static constexpr int kWidth = Isa::kWidth;
@@ -87,6 +87,26 @@ class DenseRowsOf {
   static void backward(ConstRows L, int n, Rows R, int column) {
     for (int i = n - 1; i >= 0; --i)
       solve_row<J>(R, i, column, i + 1, n, L.data + i, L.stride, L.data[i * L.stride + i]);
+  }
+
+  static void scale(Rows C, const double* weights, ConstRows B, int rows, int columns) {
+    for (int i = 0; i < rows; ++i) {
+      const double weight = weights[i];
+      for (int j = 0; j < columns; j += kRowPad)
+#pragma GCC unroll 4
+        for (int k = 0; k < kFew; ++k)
+          at(C.data + i * C.stride + j, k) = weight * at(B.data + i * B.stride + j, k);
+    }
+  }
+
+  static void add(Rows C, ConstRows B, int rows, int columns) {
+    for (int i = 0; i < rows; ++i) {
+      double* to = C.data + i * C.stride;
+      const double* from = B.data + i * B.stride;
+      int j = 0;
+      for (; j + kWidth <= columns; j += kWidth) at(to + j, 0) += at(from + j, 0);
+      for (; j < columns; ++j) to[j] += from[j];
+    }
   }
 
   // Row i of R less the rows [from, to) times their coefficients, over the pivot.

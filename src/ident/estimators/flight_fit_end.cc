@@ -12,8 +12,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Fall of the cost of a last step that needs no look: from so near the next one would be 1e-5 of it and less.
-constexpr double kSure = 0.1;
+// Fall of the cost of a last step that needs no look: from so near the next one would be 1e-4 of it and less.
+constexpr double kSure = 0.5;
 // Slopes in single precision have errors of 1e-7, and information errors of about 1e-6 times the root of what
 // flight would say of a constant, were all states known, over what it does say. At the root of this limit no
 // error was above a hundredth in any direction.

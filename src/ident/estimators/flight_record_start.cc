@@ -117,7 +117,8 @@ void set_noise(FlightRecord& record) {
 }
 
 void set_start(FlightRecord& record, std::span<const double> p) {
-  for (FlightArc& arc : record.arcs) {
+  in_parallel(record.arcs.size(), [&](std::size_t number) {
+    FlightArc& arc = record.arcs[number];
     const std::size_t rows = arc.rows();
     arc.start.resize(rows);
     const auto column = [&](int channel) {
@@ -159,7 +160,7 @@ void set_start(FlightRecord& record, std::span<const double> p) {
       }
     }
     if (arc.inputs->commanded()) set_motor_start(arc, *record.vehicle, p);
-  }
+  });
 }
 
 }  // namespace ident

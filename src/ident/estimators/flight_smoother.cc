@@ -81,7 +81,7 @@ void FlightSmoother::unlink() {
   for (ChunkPlace& place : places_) place.linked = false;
   chains_.clear();
   for (std::size_t k = 0; k < places_.size(); ++k) chains_.push_back(chain_of(k, k + 1));
-  eliminated_ = false;
+  eliminated_ = linearised_.stands = false;
 }
 
 void FlightSmoother::in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) const {
@@ -123,6 +123,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
   for (int log = 0; log < record_->logs; ++log) seeds.push_back(theta_->seeds(u, log));
   std::array<double, kChannels> weight;
   for (std::size_t c = 0; c < kChannels; ++c) weight[c] = 1.0 / noise_.sigma[c];
+  linearised_.stands = linearised_.stands && !jacobian;
   in_parallel(chunks.size(), [&](std::size_t i) {
     const std::size_t k = chunks[i];
     ChunkTask one = task(k, u, p, seeds);

@@ -122,7 +122,7 @@ class FlightSmoother {
   /// Further shared unknowns, after theta in the reduced system: accelerations from outside that follow given
   /// profiles, [chunk](6 x count) over (w_dot_B, v_dot_W). None with an empty list.
   void set_profiles(std::vector<Eigen::MatrixXd> profiles) {
-    profiles_ = std::move(profiles), eliminated_ = false;
+    profiles_ = std::move(profiles), eliminated_ = linearised_.stands = false;
   }
   /// Cuts all links: every chunk starts afresh.
   void unlink();
@@ -166,11 +166,21 @@ class FlightSmoother {
   // x_k moves by -(f_k + B_k du) - G_k dx_next, with the chunk next to it towards where the ends meet. L L'
   // is the information on x_k from its own end of the chain. Once `smoothed`, P is its covariance from all of
   // the chain, `cross` that of x_(k+1) and x_k. Shared unknowns are held in all three. Rows are padded but
-  // for L; Gt is G transposed.
+  // for L; Gt is G transposed, and B is what [G | B f] holds from column padded(n) on.
   struct Elimination {
-    std::vector<chunk::RowMatrix> Gt, B, L, P, cross;
+    std::vector<chunk::RowMatrix> GBf, Gt, L, P, cross;
     std::vector<Eigen::VectorXd> f;
-    bool smoothed = false;
+    bool held = false, smoothed = false;  // shared unknowns held: no B
+  };
+
+  // What is the same in each elimination of a linearisation.
+  struct Linearised {
+    bool stands = false;
+    std::vector<chunk::RowMatrix> E;  // slopes of each link over its state and, from padded(n) on, the shared
+    std::vector<Eigen::MatrixXd> S;   // of each chain: J'J of what the rows say of theta, upper half,
+    std::vector<Eigen::VectorXd> g;   // and J'r
+    Eigen::VectorXd held;             // step of theta that is held,
+    std::vector<Eigen::VectorXd> f, d;  // and what it adds to the gradient and the defect of each chunk
   };
 
   struct Sweep;
@@ -193,13 +203,16 @@ class FlightSmoother {
   double new_error(std::size_t k, int axis, double carried) const;
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
-  void link_slope(std::size_t k, chunk::RowMatrix& E) const;
+  void begin_eliminations();
+  void hold(const Eigen::VectorXd& du);
+  chunk::RowMatrix link_slope(std::size_t k) const;
+  void set_shares(std::size_t k, chunk::RowMatrix& E) const;
   static void damp_undetermined(chunk::RowMatrix& D, int n);
   void add_start(std::size_t k, Sweep& at) const;
-  void add_rows(std::size_t k, Sweep& at, const Eigen::VectorXd* held) const;
-  void add_link(std::size_t k, Sweep& at, bool forward, const Eigen::VectorXd* held) const;
+  void add_rows(std::size_t k, Sweep& at, bool held) const;
+  void add_link(std::size_t k, Sweep& at, bool forward, bool held);
   void eliminate_chunk(std::size_t k, Sweep& at, bool linked);
-  std::unique_ptr<Sweep> sweep(const Chain& chain, bool forward, const Eigen::VectorXd* held);
+  std::unique_ptr<Sweep> sweep(const Chain& chain, bool forward, bool held);
   void outward(const std::function<void(std::size_t, std::optional<std::size_t>)>& visit) const;
   Eigen::VectorXd shared_optimum() const;
   std::vector<Eigen::VectorXd> state_steps(const Elimination& el, const Eigen::VectorXd& du) const;
@@ -229,6 +242,7 @@ class FlightSmoother {
   std::vector<FlightState<double>> states_, trial_;  // accepted, and those of the last linearisation
   std::vector<Eigen::VectorXd> steps_;               // from the one to the other
   std::vector<ChunkResult> results_;
+  Linearised linearised_;
   std::vector<Eigen::MatrixXd> profiles_;
   std::vector<AccelerationVariance> input_errors_;  // of each chunk; empty where the input has none
   Eigen::VectorXd u_, trial_u_;                     // of the accepted and of the last linearisation

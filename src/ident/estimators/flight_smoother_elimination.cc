@@ -30,18 +30,15 @@ FlightSmoother::Chain FlightSmoother::chain_of(std::size_t begin, std::size_t en
 struct FlightSmoother::Sweep {
   using Matrix = chunk::RowMatrix;
 
-  /// `slopes`: shared unknowns that links have slopes over, `unknowns` or more.
-  Sweep(int states, int unknowns, int slopes)
+  Sweep(int states, int unknowns)
       : n(states),
         m(unknowns),
         from(padded(n)),
         shared(padded(m + 1)),
         own(Matrix::Zero(n, from + shared)),
         next(own),
-        E(Matrix::Zero(n, from + padded(slopes + 1))),
         WE(own),
         U(Matrix::Zero(n, from)),
-        solved(Matrix::Zero(n, from + shared)),
         sum(Matrix::Zero(m, shared)) {}
 
   auto D() { return own.leftCols(n); }
@@ -52,9 +49,8 @@ struct FlightSmoother::Sweep {
 
   int n, m, from, shared;
   Matrix own, next;  // [D | B f] of this chunk, and what it passes to the next one
-  Matrix E, WE;      // slope of the link, and weighted, with the weighted defect
+  Matrix WE;         // weighted slope of the link, with the weighted defect
   Matrix U;          // over the state that is next in the sweep
-  Matrix solved;     // [U | B f], then L^-1 of it, then D^-1 of it
   Matrix sum;        // [S g], of S what is right of its diagonal
   double cost = 0.0, fall = 0.0, log_det = 0.0;
 };
@@ -92,42 +88,40 @@ void FlightSmoother::add_start(std::size_t k, Sweep& at) const {
   at.g().tail(further) -= WP.transpose() * x;
 }
 
-// Begins chunk k: what the sweep passed to it, and what its rows say.
-void FlightSmoother::add_rows(std::size_t k, Sweep& at, const VectorXd* held) const {
+// Begins chunk k: what the sweep passed to it, and what its rows say of its state.
+void FlightSmoother::add_rows(std::size_t k, Sweep& at, bool held) const {
   const int n = at.n, own = theta_->size();
   const ChunkResult& r = results_[k];
   const chunk::ConstRowMap A = chunk::A(r);
+  const DenseRows& dense = dense_rows();
   std::swap(at.own, at.next);
   if (k == 0 || !places_[k - 1].linked) add_start(k, at);
-  at.D() += A.topLeftCorner(n, n);
+  dense.add(rows_of(at.own), rows_in(A), n, n);
   at.f() += chunk::g(r).head(n);
-  if (held) {
-    at.f().noalias() += A.topRightCorner(n, own) * *held;
-  } else {
-    at.B().leftCols(own) += A.topRightCorner(n, own);
-    at.S().topLeftCorner(own, own) += A.bottomRightCorner(own, own);
-    at.g().head(own) += chunk::g(r).tail(own);
-  }
+  if (held)
+    at.f() += linearised_.f[k];
+  else
+    dense.add(rows_of(at.own, at.from), {A.data() + n, A.cols()}, n, own);
   at.cost += r.cost;
 }
 
 // Adds the link of chunk k to the next one to the block of the one that the sweep is at, and what it means
 // for the other one to that.
-void FlightSmoother::add_link(std::size_t k, Sweep& at, bool forward, const VectorXd* held) const {
-  const int n = at.n, m = at.m, from = at.from;
-  link_slope(k, at.E);
+void FlightSmoother::add_link(std::size_t k, Sweep& at, bool forward, bool held) {
+  const int n = at.n, m = at.m, from = at.from, right = from + at.shared;
+  chunk::RowMatrix& slope = linearised_.E[k];
+  set_shares(k, slope);
   const VectorXd W = link_weight(k);
   VectorXd d = defect(k);
-  if (held) d.noalias() += at.E.middleCols(from, held->size()) * *held;
-  at.WE.leftCols(n) = W.asDiagonal() * at.E.leftCols(n);
-  at.WE.middleCols(from, m) = W.asDiagonal() * at.E.middleCols(from, m);
-  at.WE.col(from + m) = W.cwiseProduct(d);
-  const auto E = [&](int column) { return rows_in(at.E, column); };
-  const auto WE = [&](int column) { return rows_in(at.WE, column); };
+  if (held) d += linearised_.d[k];
   const DenseRows& dense = dense_rows();
+  dense.scale(rows_of(at.WE), W.data(), rows_in(slope), n, held ? from : right);
+  at.WE.col(from + m) = W.cwiseProduct(d);
+  const auto E = [&](int column) { return rows_in(slope, column); };
+  const auto WE = [&](int column) { return rows_in(at.WE, column); };
   at.next.setZero();
   Sweep::Matrix &before = forward ? at.own : at.next, &after = forward ? at.next : at.own;
-  dense.add_products(rows_of(before), E(0), n, WE(0), from + at.shared, n, 1.0);
+  dense.add_products(rows_of(before), E(0), n, WE(0), right, n, 1.0);
   after.leftCols(n).diagonal() += W;
   after.middleCols(from, m + 1) -= at.WE.middleCols(from, m + 1);
   dense.add_upper(rows_of(at.sum), E(from), m, WE(from), at.shared, n, 1.0);
@@ -144,7 +138,9 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
   const int n = at.n, m = at.m, from = at.from, right = from + at.shared;
   Elimination& el = last();
   const DenseRows& dense = dense_rows();
-  const auto solved = [&](int column) { return rows_in(at.solved, column); };
+  chunk::RowMatrix& GBf = el.GBf[k];  // [U | B f], then L^-1 of it, then D^-1 of it
+  GBf.resize(n, right);
+  const auto solved = [&](int column) { return rows_in(GBf, column); };
   Eigen::LLT<Sweep::Matrix> llt(at.D());
   if (llt.info() != Eigen::Success) {
     damp_undetermined(at.own, n);
@@ -153,30 +149,26 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
   const Sweep::Matrix& L = el.L[k] = llt.matrixLLT();
   at.log_det += 2 * L.diagonal().array().log().sum();
   if (linked)
-    at.solved.leftCols(from) = at.U;
+    GBf.leftCols(from) = at.U;
   else
-    at.solved.leftCols(from).setZero();
-  at.solved.middleCols(from, at.shared) = at.own.rightCols(at.shared);
-  dense.forward(rows_in(L), n, rows_of(at.solved), right);
+    GBf.leftCols(from).setZero();
+  GBf.rightCols(at.shared) = at.own.rightCols(at.shared);
+  dense.forward(rows_in(L), n, rows_of(GBf), right);
   dense.add_upper(rows_of(at.sum), solved(from), m, solved(from), at.shared, n, -1.0);
-  at.fall += at.solved.col(from + m).squaredNorm();
+  at.fall += GBf.col(from + m).squaredNorm();
   if (linked) dense.add_products(rows_of(at.next), solved(0), n, solved(0), right, n, -1.0);
-  dense.backward(rows_in(L), n, rows_of(at.solved), right);
+  dense.backward(rows_in(L), n, rows_of(GBf), right);
   if (linked) {
     el.Gt[k].setZero(n, from);
-    el.Gt[k].leftCols(n) = at.solved.leftCols(n).transpose();
+    el.Gt[k].leftCols(n) = GBf.leftCols(n).transpose();
   }
-  el.B[k] = at.solved.middleCols(from, padded(m));
-  el.B[k].rightCols(padded(m) - m).setZero();
-  el.f[k] = at.solved.col(from + m);
+  el.f[k] = GBf.col(from + m);
 }
 
 // Eliminates the chunks of a chain on one side of where its ends meet; null where there is none.
-std::unique_ptr<FlightSmoother::Sweep> FlightSmoother::sweep(const Chain& chain, bool forward,
-                                                             const VectorXd* held) {
+std::unique_ptr<FlightSmoother::Sweep> FlightSmoother::sweep(const Chain& chain, bool forward, bool held) {
   if ((forward ? chain.begin : chain.end - 1) == chain.meet) return nullptr;
-  const int all = static_cast<int>(shared());
-  auto at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : all, all);
+  auto at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : static_cast<int>(shared()));
   for (std::size_t k = forward ? chain.begin : chain.end - 1; k != chain.meet; forward ? ++k : --k) {
     add_rows(k, *at, held);
     add_link(forward ? k : k - 1, *at, forward, held);
@@ -185,13 +177,49 @@ std::unique_ptr<FlightSmoother::Sweep> FlightSmoother::sweep(const Chain& chain,
   return at;
 }
 
-void FlightSmoother::eliminate(const VectorXd* held) {
-  eliminated_ = held == nullptr;
+// The slopes of all links, and what rows say of theta in each chain.
+void FlightSmoother::begin_eliminations() {
+  if (linearised_.stands) return;
+  const Index own = theta_->size();
+  linearised_.stands = true, linearised_.held.resize(0);
+  linearised_.E.resize(places_.size());
+  in_parallel(places_.size(), [&](std::size_t k) {
+    if (places_[k].linked) linearised_.E[k] = link_slope(k);
+  });
+  linearised_.S.assign(chains_.size(), MatrixXd::Zero(own, own));
+  linearised_.g.assign(chains_.size(), VectorXd::Zero(own));
+  in_parallel(chains_.size(), [&](std::size_t c) {
+    for (std::size_t k = chains_[c].begin; k < chains_[c].end; ++k) {
+      linearised_.S[c] += chunk::A(results_[k]).bottomRightCorner(own, own);
+      linearised_.g[c] += chunk::g(results_[k]).tail(own);
+    }
+  });
+}
+
+// A step of the shared unknowns that the next elimination holds, and mostly some more.
+void FlightSmoother::hold(const VectorXd& du) {
+  if (profiles_.empty() && linearised_.held.size() == du.size() && linearised_.held == du) return;
+  const Index n = record_->layout.size, from = padded(record_->layout.size);
+  linearised_.held = du;
+  linearised_.f.resize(places_.size()), linearised_.d.resize(places_.size());
+  in_parallel(places_.size(), [&](std::size_t k) {
+    linearised_.f[k] = chunk::A(results_[k]).topRightCorner(n, theta_->size()) * du.head(theta_->size());
+    if (!places_[k].linked) return;
+    if (!profiles_.empty()) set_shares(k, linearised_.E[k]);
+    linearised_.d[k] = linearised_.E[k].middleCols(from, du.size()) * du;
+  });
+}
+
+void FlightSmoother::eliminate(const VectorXd* held_step) {
+  const bool held = held_step != nullptr;
+  begin_eliminations();
+  if (held) hold(*held_step);
+  eliminated_ = !held;
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
   const std::size_t K = places_.size();
-  el.Gt.resize(K), el.B.resize(K), el.f.resize(K), el.L.resize(K), el.P.resize(K), el.cross.resize(K);
-  el.smoothed = false;
+  el.GBf.resize(K), el.Gt.resize(K), el.f.resize(K), el.L.resize(K), el.P.resize(K), el.cross.resize(K);
+  el.held = held, el.smoothed = false;
   std::vector<std::array<std::unique_ptr<Sweep>, 2>> ends(chains_.size());
   in_parallel(2 * chains_.size(),
               [&](std::size_t i) { ends[i / 2][i % 2] = sweep(chains_[i / 2], i % 2 == 0, held); });
@@ -199,13 +227,16 @@ void FlightSmoother::eliminate(const VectorXd* held) {
   in_parallel(chains_.size(), [&](std::size_t c) {
     auto& [at, other] = ends[c];
     if (!at) std::swap(at, other);
-    const int all = static_cast<int>(shared());
-    if (!at) at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : all, all);
+    if (!at) at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : static_cast<int>(shared()));
     if (other) at->next += other->next, at->sum += other->sum;
     if (other) at->cost += other->cost, at->fall += other->fall, at->log_det += other->log_det;
     add_rows(chains_[c].meet, *at, held);
     eliminate_chunk(chains_[c].meet, *at, false);
     parts[c] = {at->cost - at->fall, at->fall, at->g(), at->S(), at->log_det};
+    if (!held) {
+      const Index own = theta_->size();
+      parts[c].S.topLeftCorner(own, own) += linearised_.S[c], parts[c].g.head(own) += linearised_.g[c];
+    }
     ends[c] = {};
   });
   if (held) return;
@@ -274,10 +305,11 @@ VectorXd FlightSmoother::shared_optimum() const {
 
 // Steps of the states for that of the shared unknowns, by an elimination which may have held it.
 std::vector<VectorXd> FlightSmoother::state_steps(const Elimination& el, const VectorXd& du) const {
+  const Index from = padded(record_->layout.size);
   std::vector<VectorXd> dx(places_.size());
   outward([&](std::size_t k, std::optional<std::size_t> next) {
     dx[k] = -el.f[k];
-    if (el.B[k].cols() > 0) dx[k].noalias() -= el.B[k].leftCols(du.size()) * du;
+    if (!el.held) dx[k].noalias() -= el.GBf[k].middleCols(from, du.size()) * du;
     if (next) dx[k].noalias() -= el.Gt[k].leftCols(dx[k].size()).transpose() * dx[*next];
   });
   return dx;
@@ -289,7 +321,8 @@ std::vector<chunk::RowMatrix> FlightSmoother::state_slopes() const {
   const DenseRows& dense = dense_rows();
   std::vector<chunk::RowMatrix> dX(places_.size());
   outward([&](std::size_t k, std::optional<std::size_t> next) {
-    dX[k] = -accepted().B[k];
+    dX[k] = chunk::RowMatrix::Zero(n, m);
+    dX[k].leftCols(shared()) = -accepted().GBf[k].middleCols(padded(n), shared());
     if (next)
       dense.add_products(rows_of(dX[k]), rows_in(accepted().Gt[k]), n, rows_in(dX[*next]), m, n, -1.0);
   });

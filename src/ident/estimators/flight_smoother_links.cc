@@ -131,13 +131,13 @@ MatrixXd FlightSmoother::profile(std::size_t k) const {
 }
 
 // Derivative of the defect of chunk k over its state, from column 0 on, and the shared unknowns, from column
-// padded(n) on; the next state held.
-void FlightSmoother::link_slope(std::size_t k, chunk::RowMatrix& E) const {
+// padded(n) on, as wide as what is eliminated; the next state held. Without what is carried.
+chunk::RowMatrix FlightSmoother::link_slope(std::size_t k) const {
   const Index n = record_->layout.size, m = theta_->size(), from = padded(record_->layout.size);
-  const VectorXd share = carried(k);
+  chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + padded(static_cast<int>(shared()) + 1));
   const chunk::ConstRowMap whole = chunk::E(results_[k], record_->layout.size);
-  E.leftCols(n) = share.asDiagonal() * whole.leftCols(n);
-  E.middleCols(from, m) = share.asDiagonal() * whole.rightCols(m);
+  E.leftCols(n) = whole.leftCols(n);
+  E.middleCols(from, m) = whole.rightCols(m);
   // The floor of unmeasured rotor speeds goes with km (link_weight), so what counts is the defect over km.
   const auto& constants = theta_->constants();
   const auto km = std::ranges::find(constants, static_cast<int>(param::km), &FreeConstant::index);
@@ -147,9 +147,20 @@ void FlightSmoother::link_slope(std::size_t k, chunk::RowMatrix& E) const {
     E.col(from + j).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
         relative * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
   }
+  return E;
+}
+
+// What such a slope owes to the noise: the share of the accelerations from outside that is carried over. They
+// are constant over a chunk and depend on nothing else.
+void FlightSmoother::set_shares(std::size_t k, chunk::RowMatrix& E) const {
+  const StateLayout& layout = record_->layout;
+  const VectorXd share = carried(k);
+  for (const int at : {layout.w_dot, layout.v_dot})
+    for (int i = at; at >= 0 && i < at + 3; ++i) E(i, i) = share[i];
   // The process is what is left of the acceleration beyond the profile.
   if (!profiles_.empty())
-    E.middleCols(from + m, shared() - m) = profile(k + 1) - share.asDiagonal() * profile(k);
+    E.middleCols(padded(layout.size) + theta_->size(), shared() - theta_->size()) =
+        profile(k + 1) - share.asDiagonal() * profile(k);
 }
 
 // Inverse variance of the defect: what accelerations from outside win anew over a chunk, q h for rotor

@@ -27,6 +27,7 @@ constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
 constexpr double kNothing = 1e-11;
 // Share of the innovations that the data determine below which there might as well be none.
 constexpr double kHardlyTold = 0.01;
+constexpr double kStill = 0.01;  // relative change of a standard deviation that ends the rounds
 
 // How much longer than those of expectation maximisation, which are short, the steps of a logarithm are: less
 // once they lead to and fro, for sigma follows the time and the time sigma.
@@ -39,6 +40,19 @@ struct Pace {
     last = wanted;
     return std::clamp(factor * wanted, -kLongest, kLongest);
   }
+};
+
+// MacKay's fixed point: what a variance is to be multiplied by, and whether that matters.
+struct VarianceStep {
+  double ratio;
+  bool nothing;
+
+  /// `square`: of the innovations, over their variance; `told` of `count` of them the data determine.
+  VarianceStep(double square, double told, double count) {
+    ratio = std::clamp(square / std::max(told, kHardlyTold * count), 0.02, 50.0);
+    nothing = ratio < 1 && told < kHardlyTold * count;
+  }
+  double change() const { return nothing ? 0.0 : std::abs(std::sqrt(ratio) - 1); }
 };
 
 // Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown. Where
@@ -68,15 +82,12 @@ struct ProcessMoments {
   double update(ColouredNoise& noise, Pace& pace) const {
     if (links < 8 || noise.sigma <= 0) return 0;
     const double h = seconds / links, variance = noise.sigma * noise.sigma;
-    const double told = count - unknown;
-    const double determined = std::max(told, kHardlyTold * count);
-    const double ratio = std::clamp(square / determined, 0.02, 50.0);
+    const VarianceStep step(square, count - unknown, count);
     const double carried = std::clamp(cross / (0.5 * (now + next)), 0.01, 0.998);
     const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
-    const bool nothing = variance < kNothing || (ratio < 1 && told < kHardlyTold * count);
-    noise.sigma *= std::sqrt(ratio);
+    noise.sigma *= std::sqrt(step.ratio);
     noise.tau = std::clamp(noise.tau * std::exp(pace.step(std::log(tau / noise.tau))), 0.3 * h, kSlowest);
-    return nothing ? 0 : std::abs(std::sqrt(ratio) - 1);
+    return variance < kNothing ? 0 : step.change();
   }
 };
 
@@ -127,7 +138,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
       std::array<ProcessMoments, 3> turn, push;
     };
     std::vector<LogMoments> logs(noise_.air.size());
-    double motors = 0, motors_determined = 0, links = 0;
+    double motors = 0, motors_determined = 0, motors_floor = 0, links = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
       const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
@@ -154,6 +165,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
         const double V =
             e.dot(el.P[k].leftCols(n) * e) - 2 * el.cross[k].row(r).head(n).dot(e) + el.P[k + 1](r, r);
         motors += W[r] * left * left, motors_determined += 1 - W[r] * V, links += 1;
+        motors_floor += 1 / (W[r] * h) - noise_.q_motor;
       }
     }
     change = 0;
@@ -162,12 +174,13 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
         change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i], paces[log][i]),
                            logs[log].push[i].update(noise_.air[log].v_dot[i], paces[log][3 + i])});
     if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
-      const double determined = std::max(motors_determined, 0.01 * links);
-      const double ratio = std::clamp(motors / determined, 0.02, 50.0);
-      noise_.q_motor = std::max(noise_.q_motor * ratio, kLeastMotor);
-      if (noise_.q_motor > kLeastMotor) change = std::max(change, std::abs(std::sqrt(ratio) - 1));
+      const VarianceStep step(motors, motors_determined, links);
+      // It is the variance of the links, of which the floor is a part, that is to change by that ratio.
+      noise_.q_motor =
+          std::max(noise_.q_motor * step.ratio + (step.ratio - 1) * motors_floor / links, kLeastMotor);
+      if (noise_.q_motor > kLeastMotor) change = std::max(change, step.change());
     }
-    if (change < 0.01) break;
+    if (change < kStill) break;
   }
   if (eliminated)
     eliminate();
@@ -184,10 +197,9 @@ FlightSmoother::Along FlightSmoother::along(const VectorXd& du) {
   std::vector<VectorXd> dx(K);
   for (std::size_t k = 0; k < K; ++k) dx[k] = dX[k].leftCols(du.size()) * du;
   Along out{{}, {}, std::vector<VectorXd>(K), std::vector<VectorXd>(K), std::vector<VectorXd>(K)};
-  chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + shared());
   for (std::size_t k = 0; k < K; ++k) {
     if (!places_[k].linked) continue;
-    link_slope(k, E);
+    const chunk::RowMatrix& E = linearised_.E[k];
     out.defects[k] = defect(k), out.weights[k] = link_weight(k);
     out.defect_slopes[k] = E.leftCols(n) * dx[k] + E.middleCols(from, shared()) * du - dx[k + 1];
   }
@@ -229,8 +241,7 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
   in_parallel(blocks.size(), [&](std::size_t b) {
     VectorXd score = VectorXd::Zero(columns);
     chunk::RowMatrix F = chunk::RowMatrix::Zero(m, columns), across(n, columns), along(n, columns);
-    chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + columns), Et(n, n), slope(n, columns),
-                     WS(n, columns);
+    chunk::RowMatrix Et(n, n), slope(n, columns), WS(n, columns);
     for (std::size_t k = begin[b]; k < begin[b + 1]; ++k) {
       // Rows are about the state, which follows dX, and theta; profiles act through links only.
       const chunk::ConstRowMap A = chunk::A(results_[k]);
@@ -254,9 +265,9 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
         add(start_information(k), outside(k));
       }
       if (!places_[k].linked) continue;
-      link_slope(k, E);
+      const chunk::RowMatrix& E = linearised_.E[k];
       Et = E.leftCols(n).transpose();
-      slope = E.rightCols(columns) - dX[k + 1];
+      slope = E.middleCols(from, columns) - dX[k + 1];
       dense.add_products(rows_of(slope), rows_in(Et), n, rows_in(dX[k]), columns, n, 1.0);
       add(link_weight(k), defect(k));
     }

@@ -26,6 +26,8 @@ constexpr int kExchanges = 2;
 // What a regression predicts by more than chance, and the share of it that a missing cause leaves to it.
 constexpr double kPredicted = 60.0;
 constexpr double kMostOfIt = 0.25;
+// Fall of the cost that fine steps promise at the end of a search and that its last step may take unseen.
+constexpr double kUnseen = 0.5;
 
 // One search: adds causes step by step, and exchanges them where their weights speak against them.
 class Search {
@@ -47,7 +49,7 @@ class Search {
       if (further(s_.now, s_.now.have, c).passes()) s_.out.ran_away.push_back(described(s_.candidate(c)));
     s_.out.sets = weighed_sets(s_.now);
     s_.out.alone = s_.steps_here();
-    s_.fit.tolerance_of_misfit = 0;
+    s_.fit.tolerance_of_misfit = 0, s_.fit.tolerance = kUnseen;
     s_.now.model.fit.smoother->set_steps(Steps::fine);
     finish_fit(s_.now.model.fit, *s_.now.model.theta, s_.fit);
     s_.now.model.fit.smoother->set_steps(s_.fit.steps);  // for what is asked of the end

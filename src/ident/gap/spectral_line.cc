@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
+#include "ident/core/parallel.h"
+
 namespace ident {
 namespace {
 
@@ -18,7 +20,9 @@ using Pieces = std::vector<std::vector<double>>;  // of a series, evenly sampled
 
 // Mean periodogram of half overlapping stretches; `count` of them.
 std::vector<double> welch(const Pieces& pieces, std::size_t length, int& count) {
-  std::vector<double> power(length / 2 + 1, 0.0), stretch(length);
+  std::vector<double> power(length / 2 + 1, 0.0), stretch(length), window(length);
+  for (std::size_t i = 0; i < length; ++i)
+    window[i] = 0.5 - 0.5 * std::cos(2 * M_PI * static_cast<double>(i) / static_cast<double>(length));
   std::vector<std::complex<double>> frequency;
   Eigen::FFT<double> fft;
   count = 0;
@@ -26,9 +30,7 @@ std::vector<double> welch(const Pieces& pieces, std::size_t length, int& count) 
     for (std::size_t from = 0; from + length <= x.size(); from += length / 2) {
       double mean = 0;
       for (std::size_t i = 0; i < length; ++i) mean += x[from + i] / static_cast<double>(length);
-      for (std::size_t i = 0; i < length; ++i)
-        stretch[i] = (x[from + i] - mean) *
-                     (0.5 - 0.5 * std::cos(2 * M_PI * static_cast<double>(i) / static_cast<double>(length)));
+      for (std::size_t i = 0; i < length; ++i) stretch[i] = (x[from + i] - mean) * window[i];
       fft.fwd(frequency, stretch);
       for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(frequency[k]);
       ++count;
@@ -66,8 +68,9 @@ void look_for_line(const std::string& channel, const Pieces& pieces, double h, b
   for (std::size_t k = 1; k < power.size(); ++k) total += power[k];
   const auto last = static_cast<std::size_t>((air ? 0.8 : 1.0) * static_cast<double>(power.size()));
   for (std::size_t k = 4; k + 2 < last; ++k) {
+    if (power[k] < power[k - 1] || power[k] < power[k + 1]) continue;
     const double around = running_median(power, k), height = power[k] / std::max(around, 1e-300);
-    if (height <= best || power[k] < power[k - 1] || power[k] < power[k + 1]) continue;
+    if (height <= best) continue;
     best = height, at = k;
     share = (power[k - 1] + power[k] + power[k + 1] - 3 * around) / total;
   }
@@ -78,11 +81,11 @@ void look_for_line(const std::string& channel, const Pieces& pieces, double h, b
 }  // namespace
 
 std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const FlightFit& fit) {
-  std::vector<SpectralLine> out;
   const auto residuals = fit.smoother->residuals();
   const auto& places = fit.smoother->chunks();
   const auto& states = fit.smoother->states();
-  for (int channel = 0; channel < kChannels; ++channel) {
+  std::vector<std::vector<SpectralLine>> found(kChannels + 6);
+  const auto look_at_sensor = [&](int channel) {
     Pieces pieces(record.arcs.size());
     double seconds = 0, samples = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -95,10 +98,12 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
     for (const auto& piece : pieces) samples += static_cast<double>(piece.size());
-    if (samples > 512) look_for_line(channel_name(channel), pieces, seconds / samples, false, out);
-  }
+    if (samples > 512)
+      look_for_line(channel_name(channel), pieces, seconds / samples, false,
+                    found[static_cast<std::size_t>(channel)]);
+  };
   static constexpr std::array names = {"Mx", "My", "Mz", "Fx", "Fy", "Fz"};
-  for (int axis = 0; axis < 6; ++axis) {
+  const auto look_at_air = [&](int axis) {
     Pieces pieces(record.arcs.size());
     double seconds = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -109,8 +114,14 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
     look_for_line(names[static_cast<std::size_t>(axis)], pieces, seconds / static_cast<double>(places.size()),
-                  true, out);
-  }
+                  true, found[static_cast<std::size_t>(kChannels + axis)]);
+  };
+  in_parallel(found.size(), [&](std::size_t i) {
+    const int series = static_cast<int>(i);
+    series < kChannels ? look_at_sensor(series) : look_at_air(series - kChannels);
+  });
+  std::vector<SpectralLine> out;
+  for (const auto& lines : found) out.insert(out.end(), lines.begin(), lines.end());
   std::ranges::sort(out, std::greater<>(), &SpectralLine::height);
   return out;
 }

@@ -15,6 +15,7 @@ constexpr double kSeen = 100.0;     // a cause that gains less is no reason to h
 constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
 constexpr double kSlowest = 2.0;    // rad/s: below it the commands no longer move the model's rotors
 constexpr int kMostSteps = 20;      // of its fit: a right one takes five to twelve
+constexpr double kEnough = 20.0, kStretch = 4.0;  // s of flight in which a wrong lag shows, in stretches
 constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
 
 double total_cost(FlightSmoother& smoother, const Theta& theta, const Eigen::VectorXd& u) {
@@ -88,15 +89,30 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   std::vector<FreeConstant> constants = at_hand.constants;
   for (FreeConstant& c : constants) c.start = p[static_cast<std::size_t>(c.index)];
   FreeConstant& omega_m = constants[static_cast<std::size_t>(cause->parameter)];
-  omega_m.start = best_start(record, p, form.noise, again.chunk_seconds, again.steps);
-  if (!std::isfinite(omega_m.start)) return {};
+  const auto lag_of = [&](const FittedModel& model) {
+    return model.theta->physical(model.fit.u, cause->parameter);
+  };
+  const auto start_from = [&](const FittedModel& model) {
+    for (std::size_t i = 0; i < constants.size(); ++i)
+      constants[i].start = model.theta->physical(model.fit.u, static_cast<int>(i));
+  };
   std::vector<Candidate> causes = at_hand.adopted;
   causes.push_back(*cause);
-  WrongLag out{*cause, fitted(constants, causes, record, p, again)};
   // The model at hand may have come there by itself, against what was stated.
-  if (lag_beyond_physics(at_hand.theta->physical(at_hand.fit.u, cause->parameter), omega_m.prior_value)) {
-    for (std::size_t i = 0; i < constants.size(); ++i)
-      constants[i].start = at_hand.theta->physical(at_hand.fit.u, static_cast<int>(i));
+  const bool is_there = lag_beyond_physics(lag_of(at_hand), omega_m.prior_value);
+  std::optional<FlightRecord> excerpt;
+  if (record.duration > 2 * kEnough) excerpt = excerpt_of(record, kEnough / record.duration, kStretch);
+  omega_m.start = best_start(excerpt ? *excerpt : record, p, form.noise, again.chunk_seconds, again.steps);
+  if (!std::isfinite(omega_m.start)) return {};
+  if (excerpt) {
+    const FittedModel there = fitted(constants, causes, *excerpt, p, again);
+    const bool wrong = stands(there) && lag_beyond_physics(lag_of(there), omega_m.prior_value);
+    if (!wrong && !is_there) return {};
+    if (wrong) start_from(there);
+  }
+  WrongLag out{*cause, fitted(constants, causes, record, p, again)};
+  if (is_there) {
+    start_from(at_hand);
     FittedModel on = fitted(constants, causes, record, p, again);
     if (stands(on) && (!stands(out.model) || on.fit.cost < out.model.fit.cost)) out.model = std::move(on);
   }
@@ -106,7 +122,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   smoother.set_steps(at_hand.fit.smoother->steps());
   smoother.settle(at_hand.fit.u, 1);
   out.gain = total_cost(smoother, *at_hand.theta, at_hand.fit.u) - out.model.fit.cost;
-  const double found = out.model.theta->physical(out.model.fit.u, cause->parameter);
+  const double found = lag_of(out.model);
   if (!(out.gain > 0) || found < kSlowest || !lag_beyond_physics(found, omega_m.prior_value)) return {};
   return out;
 }
