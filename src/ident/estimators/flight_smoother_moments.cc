@@ -175,9 +175,9 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
                            logs[log].push[i].update(noise_.air[log].v_dot[i], paces[log][3 + i])});
     if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
       const VarianceStep step(motors, motors_determined, links);
-      // It is the variance of the links, of which the floor is a part, that is to change by that ratio.
-      noise_.q_motor =
-          std::max(noise_.q_motor * step.ratio + (step.ratio - 1) * motors_floor / links, kLeastMotor);
+      // It is the variance of the links, of which the floor is a part, that is to shrink by that ratio.
+      const double of_floor = std::min(step.ratio - 1, 0.0) * motors_floor / links;
+      noise_.q_motor = std::max(noise_.q_motor * step.ratio + of_floor, kLeastMotor);
       if (noise_.q_motor > kLeastMotor) change = std::max(change, step.change());
     }
     if (change < kStill) break;
