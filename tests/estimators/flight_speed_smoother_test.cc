@@ -11,6 +11,7 @@
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_input_error.h"
 #include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_speed_modes.h"
 #include "ident/model/simulate.h"
 #include "support/known_quad.h"
 #include "support/published_hover.h"
@@ -190,7 +191,8 @@ std::vector<FlightLog> flights_by_noisy_speeds(const Vehicle& truth) {
   return logs;
 }
 
-// A rotor's error turns and pushes the vehicle by as much as the model does with a speed that is off by it.
+// The error of a rotor, or of rotors together, turns and pushes the vehicle by as much as the model does with
+// speeds that are off by it.
 TEST(SpeedSmoother, ErrorsOfTheInputActAsTheModelSays) {
   const Vehicle vehicle = testing::published_vehicle();  // two rotors are slanted
   const std::vector<double> p = parameter_vector(vehicle);
@@ -210,18 +212,32 @@ TEST(SpeedSmoother, ErrorsOfTheInputActAsTheModelSays) {
     return a;
   };
   constexpr double kOff = 0.01;
-  for (std::size_t n = 0; n < vehicle.rotors.size(); ++n) {
-    SpeedErrors errors{arc.t, {}, {}, {}};
-    for (auto* of : {&errors.variance, &errors.density, &errors.other})
-      of->assign(vehicle.rotors.size(), std::vector<double>(arc.rows(), 0.0));
-    errors.variance[n].assign(arc.rows(), 4.0), errors.density[n].assign(arc.rows(), 1e6);
-    arc.speed_errors = std::make_shared<const SpeedErrors>(errors);
-    FlightInputs off = *arc.inputs;
-    for (double& Omega : off.Omega[n]) Omega += kOff;
-    const AccelerationVariance slope = (accelerations_with(off) - accelerations_with(*arc.inputs)) / kOff;
-    const AccelerationVariance found = input_error(record, arc, 100, 101, GustAxes::world);
-    for (int i = 0; i < 6; ++i)
-      EXPECT_NEAR(found[i], 4.0 * slope[i] * slope[i], 0.03 * found[i] + 1e-4 * found.maxCoeff()) << n << i;
+  const Eigen::MatrixXd of_vehicle = speed_modes(vehicle, p), none;
+  for (const bool by_mode : {false, true}) {
+    std::vector<AccelerationVariance> expected, found;
+    AccelerationVariance most = AccelerationVariance::Zero();
+    for (std::size_t n = 0; n < vehicle.rotors.size(); ++n) {
+      SpeedErrors errors{arc.t, {}, {}, {}, by_mode ? of_vehicle : none};
+      for (auto* of : {&errors.variance, &errors.density, &errors.other})
+        of->assign(vehicle.rotors.size(), std::vector<double>(arc.rows(), 0.0));
+      errors.variance[n].assign(arc.rows(), 4.0), errors.density[n].assign(arc.rows(), 1e6);
+      arc.speed_errors = std::make_shared<const SpeedErrors>(errors);
+      FlightInputs off = *arc.inputs;
+      for (std::size_t k = 0; k < off.Omega.size(); ++k) {
+        const double share = by_mode ? of_vehicle(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k))
+                                     : static_cast<double>(k == n);
+        for (double& Omega : off.Omega[k]) Omega += share * kOff;
+      }
+      const AccelerationVariance slope = (accelerations_with(off) - accelerations_with(*arc.inputs)) / kOff;
+      expected.emplace_back(4.0 * slope.cwiseAbs2());
+      found.push_back(input_error(record, arc, 100, 101, GustAxes::world));
+      most = most.cwiseMax(found.back());
+    }
+    for (std::size_t n = 0; n < found.size(); ++n)
+      for (int i = 0; i < 6; ++i)
+        EXPECT_NEAR(found[n][i], expected[n][i],
+                    0.03 * found[n][i] + 2e-3 * most[i] + 1e-4 * found[n].maxCoeff())
+            << n << i << by_mode;
   }
 }
 

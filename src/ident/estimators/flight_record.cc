@@ -9,7 +9,7 @@
 #include "ident/core/parallel.h"
 #include "ident/estimators/flight_pieces.h"
 #include "ident/estimators/flight_record_start.h"
-#include "ident/estimators/flight_speed_smoother.h"
+#include "ident/estimators/flight_speed_modes.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -61,7 +61,7 @@ double highest_voltage(std::span<const FlightLog> logs) {
 }
 
 FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::size_t end,
-                   const Vehicle& vehicle, double v0) {
+                   const Vehicle& vehicle, double v0, const Eigen::MatrixXd& modes) {
   FlightArc arc;
   arc.log = number;
   const auto cut = [&](const std::vector<double>& c) {
@@ -101,35 +101,25 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
       put(log.Omega[n], kRotorChannel + static_cast<int>(n));
   }
   inputs.t = arc.t;
-  inputs.Omega.resize(log.Omega.size());
-  std::vector<std::vector<double>> rougher(log.Omega.size());
-  SpeedErrors errors{arc.t, rougher, rougher, rougher};
-  in_parallel(log.Omega.size(), [&](std::size_t n) {
-    const std::vector<double> column = cut(log.Omega[n]);
-    if (log.has_commands()) {
-      inputs.Omega[n] = interpolated(arc.t, column);
-      return;
-    }
-    SmoothedSpeed speed = smoothed_speed(arc.t, column);
-    inputs.Omega[n] = std::move(speed.likely), rougher[n] = std::move(speed.rougher);
-    errors.variance[n] = std::move(speed.variance), errors.density[n] = std::move(speed.density);
-    for (std::size_t i = 0; i < rougher[n].size(); ++i)
-      errors.other[n].push_back(rougher[n][i] - inputs.Omega[n][i]);
-  });
+  std::vector<std::vector<double>> speeds;
+  for (const auto& column : log.Omega) speeds.push_back(cut(column));
+  SmoothedSpeeds smoothed;
+  if (log.has_commands()) {
+    for (const auto& column : speeds) inputs.Omega.push_back(interpolated(arc.t, column));
+  } else if (!speeds.empty()) {
+    smoothed = smoothed_speeds(arc.t, speeds, modes);
+    inputs.Omega = std::move(smoothed.likely);
+  }
   if (!log.vbat.empty()) {
     inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
     for (double& v : inputs.voltage_ratio) v = std::max(v / v0, 0.05);
   }
   if (!log.has_commands()) {
     FlightInputs other = inputs;
-    other.Omega = std::move(rougher);
+    other.Omega = std::move(smoothed.rougher);
     arc.rougher = std::make_shared<const FlightInputs>(std::move(other));
-    const auto has_noise = [](const std::vector<double>& variance) { return !variance.empty(); };
-    if (std::ranges::any_of(errors.variance, has_noise)) {
-      for (auto* of : {&errors.variance, &errors.density, &errors.other})
-        for (auto& column : *of) column.resize(arc.rows(), 0.0);
-      arc.speed_errors = std::make_shared<const SpeedErrors>(std::move(errors));
-    }
+    if (!smoothed.errors.t.empty())
+      arc.speed_errors = std::make_shared<const SpeedErrors>(std::move(smoothed.errors));
   }
   arc.inputs = std::make_shared<const FlightInputs>(std::move(inputs));
   return arc;
@@ -169,13 +159,14 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     throw UsageError(
         fmt::format("{}: rotors: 1 to {} rotors are supported, not {}", vehicle.file, kMaxRotors, rotors));
   record.layout = layout_of(record.signals, rotors);
+  const Eigen::MatrixXd modes = speed_modes(vehicle, p);
   const double v0 = vehicle.battery_voltage.value_or(highest_voltage(logs));
   for (std::size_t n = 0; n < logs.size(); ++n) {
     const FlightLog& log = logs[n];
     if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");
     const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
     for (const auto& [begin, end] : whole_pieces(log, history, options.longest_gap, record.warnings))
-      if (FlightArc arc = make_arc(log, static_cast<int>(n), begin, end, vehicle, v0); is_driven(arc))
+      if (FlightArc arc = make_arc(log, static_cast<int>(n), begin, end, vehicle, v0, modes); is_driven(arc))
         record.arcs.push_back(std::move(arc));
   }
   std::vector<double> intervals;

@@ -12,12 +12,14 @@
 
 namespace ident {
 
-/// What is left of the noise of smoothed rotor speeds, by rotor and row.
+/// What is left of the noise of smoothed rotor speeds, by mode and row.
 struct SpeedErrors {
   std::vector<double> t;                      ///< s
   std::vector<std::vector<double>> variance;  ///< of the speed, (rad/s)^2
   std::vector<std::vector<double>> density;   ///< of what was measured, (rad/s)^2 s: variance by distance
   std::vector<std::vector<double>> other;     ///< what another smoothing says, against this one, rad/s
+  Eigen::MatrixXd
+      modes;  ///< [mode][rotor], orthogonal: errors of modes have nothing in common. Empty: rotors
 };
 
 /// An uninterrupted piece of one log.
