@@ -158,8 +158,8 @@ SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, c
   if (region.free) problem.initial_radius = 1e12, problem.most_rejected = 1;
   SteppedMinimum best = minimise_stepped(problem, start);
   int steps = best.steps;
-  if (region.free && best.rejected &&
-      steps < region.max_steps) {  // from that far it would take ten more to shrink to where a step helps
+  // From that far it would take ten more to shrink to where a step helps.
+  if (region.free && best.rejected && steps < region.max_steps) {
     problem.initial_radius = kShort, problem.most_rejected = kRejectedShort;
     problem.max_steps = region.max_steps - steps;
     best = minimise_stepped(problem, best.u);
