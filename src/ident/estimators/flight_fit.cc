@@ -18,6 +18,11 @@ constexpr double kKnown = 0.03, kRoughly = 0.1;
 constexpr int kRetuned = 6, kFewRetuned = 3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
+// A mean square of residuals, in variances, that those steps leave, or further steps of such length, where
+// something is missing that the model bends for, as far as to motors that do nothing: they are taken from the
+// start again once so many rounds of noise have told what the model does not explain.
+constexpr double kMisses = 3.0;
+constexpr int kBeforeSteps = 4;
 // A mean square of residuals, in variances, so large that the model is far from any minimum, and what is made
 // of it for the first steps.
 constexpr double kFar = 1e4;
@@ -80,6 +85,17 @@ class Fitting {
     if (options_.estimate_noise) first.max_steps = kFirstSteps;
     if (options_.most_steps > 0) first.max_steps = std::min(first.max_steps, options_.most_steps);
     smoother_->set_gentle(true);
+    trust_region(first);
+    if (!options_.estimate_noise || !misses()) return;
+    u_ = start_of(theta_, options_);
+    start();
+    smoother_->set_gentle(true);
+    for (int round = 0; round < kBeforeSteps; ++round) {
+      smoother_->linearize(u_, true);
+      smoother_->accept();
+      if (update_noise(*smoother_, kRetuned) < kNearly) break;
+    }
+    if (options_.robust) smoother_->set_huber(kHuber);
     trust_region(first);
   }
 
@@ -167,11 +183,16 @@ class Fitting {
     fit.chunk_seconds = chunk_;
     fit.smoother = smoother_;
     fit.converged = true, fit.serves = serves_;
-    finish_fit(fit, theta_, options_);
+    finish_fit(fit, theta_, options_, true);
     return fit;
   }
 
  private:
+  bool misses() {
+    linearize_at(*smoother_, u_);
+    smoother_->accept();
+    return square_of(*smoother_) > kMisses || newton_step(*smoother_, u_).fall > kNear;
+  }
   bool gave_up() const { return options_.most_steps > 0 && steps_ >= options_.most_steps; }
   FlightFit unfinished() const {
     FlightFit fit;

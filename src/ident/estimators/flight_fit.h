@@ -56,8 +56,9 @@ double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& opti
 /// Brings a fit to where less than `options.tolerance` of a fall is left, finds its information and
 /// covariance there, and takes what is left by one more step of Newton's, which is not evaluated. Steps are
 /// fine ones if it is to be exact, and slopes then in double precision where the rounding of single
-/// precision would pass for information. For a fit that was made with a larger tolerance.
-void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options);
+/// precision would pass for information. For a fit that was made with a larger tolerance; one that is
+/// `at_minimum` of single precision is not looked at for it once more.
+void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options, bool at_minimum = false);
 
 /// The shared unknowns as the first `training_share` of every arc would have them: one Newton step from the
 /// fit.

@@ -55,12 +55,13 @@ double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& opti
   return std::max(options.tolerance, options.tolerance_of_misfit * missed);
 }
 
-void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options) {
+void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options, bool at_minimum) {
   FlightSmoother& smoother = *fit.smoother;
   const auto minimum = [&](bool in_double) {
     smoother.set_exact(in_double);
     if (!is_finite(linearize_at(smoother, fit.u)) && !in_double) return false;
     smoother.accept();
+    if (at_minimum && !in_double) return true;
     const SharedMinimum at =
         minimise_shared(smoother, fit.u, worth_a_step(smoother, options), options.most_steps);
     fit.u = at.u, fit.steps += at.steps;

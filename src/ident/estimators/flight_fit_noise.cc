@@ -13,7 +13,7 @@ constexpr double kBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
 constexpr int kRetune = 3;
 // Shortest chunks, s; in a search, where models that miss much ask for the shortest, less would cost time
 // only.
-constexpr double kFinest = 0.03, kFinestSearch = 0.05;
+constexpr double kFinest = 0.03, kFinestSearch = 0.1;
 
 double rms_rate_of(const FlightRecord& record, int channel) {
   double sum = 0, n = 0;

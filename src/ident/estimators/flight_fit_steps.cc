@@ -114,7 +114,12 @@ const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u) {
   return smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
 }
 
-bool is_finite(const ReducedSystem& system) { return std::isfinite(system.cost) && system.S.allFinite(); }
+bool is_finite(const ReducedSystem& system) {
+  // Where a simulation has run away rounding leaves less than nothing of a sum of squares.
+  constexpr double kRounding = 1e-3;
+  return std::isfinite(system.cost) && system.cost >= -kRounding * std::abs(system.fall) &&
+         system.S.allFinite() && system.g.allFinite();
+}
 
 double samples_of(const FlightRecord& record) {
   double samples = 1;
