@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "ident/core/error.h"
 #include "ident/estimators/flight_fit_steps.h"
@@ -19,9 +21,9 @@ constexpr int kRetuned = 6, kFewRetuned = 3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 // A mean square of residuals, in variances, that those steps leave, or further steps of such length, where
-// something is missing that the model bends for, as far as to motors that do nothing: they are taken from the
-// start again once so many rounds of noise have told what the model does not explain.
-constexpr double kMisses = 3.0;
+// something may be missing that the model bends for, as far as to motors that do nothing; deviations of a
+// constant that is; rounds of noise before the first step of a fit that keeps from it.
+constexpr double kMisses = 3.0, kBent = 5.0;
 constexpr int kBeforeSteps = 4;
 // A mean square of residuals, in variances, so large that the model is far from any minimum, and what is made
 // of it for the first steps.
@@ -38,6 +40,7 @@ constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise br
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Tell = std::function<void(double)>;
 
 // Mean square of the residuals, in variances.
 double square_of(const FlightSmoother& smoother) {
@@ -81,13 +84,13 @@ class Fitting {
       start();
     }
     if (options_.estimate_noise) calm(*smoother_);
-    TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
-    if (options_.estimate_noise) first.max_steps = kFirstSteps;
-    if (options_.most_steps > 0) first.max_steps = std::min(first.max_steps, options_.most_steps);
     smoother_->set_gentle(true);
-    trust_region(first);
-    if (!options_.estimate_noise || !misses()) return;
-    u_ = start_of(theta_, options_);
+    trust_region(first_steps());
+  }
+
+  /// The same, after rounds of noise at what was stated.
+  void begin_with_noise() {
+    chunk_ = options_.chunk_seconds > 0 ? options_.chunk_seconds : first_chunk(record_);
     start();
     smoother_->set_gentle(true);
     for (int round = 0; round < kBeforeSteps; ++round) {
@@ -96,7 +99,26 @@ class Fitting {
       if (update_noise(*smoother_, kRetuned) < kNearly) break;
     }
     if (options_.robust) smoother_->set_huber(kHuber);
-    trust_region(first);
+    trust_region(first_steps());
+  }
+
+  /// Whether it is not near a minimum, or misses more than noise.
+  bool misses() {
+    linearize_at(*smoother_, u_);
+    smoother_->accept();
+    return square_of(*smoother_) > kMisses || newton_step(*smoother_, u_).fall > kNear;
+  }
+
+  /// The farthest that a constant is from what was stated, in deviations.
+  double pull() const {
+    return theta_.prior(u_).residual.head(theta_.constants_count()).lpNorm<Eigen::Infinity>();
+  }
+
+  /// Of its noise and unknowns: the less the likelier.
+  double surprise() {
+    linearize_at(*smoother_, u_);
+    smoother_->accept();
+    return smoother_->surprise();
   }
 
   /// From where the fit of an excerpt ended; false where that is far from anything here.
@@ -111,12 +133,12 @@ class Fitting {
       return false;
     }
     const NewtonStep step = newton_step(*smoother_, u_);
-    if (step.fall < kNear * theta_.size() && theta_.possible(u_ + step.du)) u_ += step.du;
+    if (step.fall < kNear * theta_.size() && is_short(theta_, u_, step.du)) u_ += step.du;
     return gone_on_ = true;
   }
 
   /// Noise and unknowns in turn. Chunks may change in the first two rounds.
-  void find_noise(const std::function<void(double)>& tell) {
+  void find_noise(const Tell& tell) {
     for (int round = 0; round < options_.noise_rounds; ++round) {
       smoother_->linearize(u_, true);
       smoother_->set_gentle(false);
@@ -142,7 +164,7 @@ class Fitting {
       const bool done = !turned && (change < (options_.rough_noise ? kRoughly : kKnown) ||
                                     (round >= 5 && change < kNearly));
       if (done && !(step.fall < kNear * theta_.size())) break;
-      if ((done || step.fall < kNear) && theta_.possible(u_ + step.du)) {
+      if ((done || step.fall < kNear) && is_short(theta_, u_, step.du)) {
         u_ += step.du;
       } else if (is_finite(smoother_->linearize(u_))) {
         trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
@@ -188,10 +210,11 @@ class Fitting {
   }
 
  private:
-  bool misses() {
-    linearize_at(*smoother_, u_);
-    smoother_->accept();
-    return square_of(*smoother_) > kMisses || newton_step(*smoother_, u_).fall > kNear;
+  TrustRegion first_steps() const {
+    TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};
+    if (options_.estimate_noise) first.max_steps = kFirstSteps;
+    if (options_.most_steps > 0) first.max_steps = std::min(first.max_steps, options_.most_steps);
+    return first;
   }
   bool gave_up() const { return options_.most_steps > 0 && steps_ >= options_.most_steps; }
   FlightFit unfinished() const {
@@ -246,6 +269,29 @@ bool of_every_log(const FlightRecord& excerpt, const FlightRecord& record) {
   });
 }
 
+// A fit begun, its noise found if that is asked for. Where the first steps do not come near, the likelier of
+// two: that one, and one that knew what the model does not explain before it took any. In a search for what
+// is missing this one also where the other is bent for it.
+std::unique_ptr<Fitting> started(const FlightRecord& record, const Theta& theta,
+                                 const FlightFitOptions& options, const Tell& tell) {
+  auto fit = std::make_unique<Fitting>(record, theta, options);
+  fit->begin();
+  if (!options.estimate_noise) return fit;
+  const bool misses = fit->misses();
+  fit->find_noise(tell);
+  if (misses) try {
+      auto other = std::make_unique<Fitting>(record, theta, options);
+      other->begin_with_noise();
+      other->find_noise(tell);
+      const double by_steps = fit->surprise(), by_noise = other->surprise();
+      const bool likelier = !(by_steps <= by_noise);
+      const bool bends_less = fit->pull() > kBent && other->pull() < fit->pull();
+      if (std::isfinite(by_noise) && (likelier || (options.rough_noise && bends_less))) return other;
+    } catch (const DataError&) {  // nothing flies from there
+    }
+  return fit;
+}
+
 }  // namespace
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
@@ -254,25 +300,23 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       if (options.progress) options.progress(from + share * (to - from));
     };
   };
-  Fitting fitting(record, theta, options);
+  auto fitting = std::make_unique<Fitting>(record, theta, options);
   bool begun = false;
   if (options.estimate_noise && record.duration > kLong) {
     const double share = std::clamp(kExcerpt / record.duration, kLeastShare, kMostShare);
     if (const FlightRecord excerpt = excerpt_of(record, share, kStretch); of_every_log(excerpt, record)) try {
-        Fitting first(excerpt, theta, options);
-        first.begin();
-        first.find_noise(tell(0.1, 0.4));
-        first.steps_show(record.duration / excerpt.duration);
-        begun = fitting.go_on_from(first);
+        const std::unique_ptr<Fitting> first = started(excerpt, theta, options, tell(0.1, 0.4));
+        first->steps_show(record.duration / excerpt.duration);
+        begun = fitting->go_on_from(*first);
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }
   }
-  if (!begun) fitting.begin();
-  if (options.estimate_noise) {
-    fitting.find_noise(tell(0.4, 0.8));
-    if (!begun && fitting.steps_show()) fitting.find_noise(tell(0.6, 0.8));
-  }
-  FlightFit fit = fitting.finish();
+  if (begun)
+    fitting->find_noise(tell(0.4, 0.8));
+  else
+    fitting = started(record, theta, options, tell(0.4, 0.8));
+  if (options.estimate_noise && !begun && fitting->steps_show()) fitting->find_noise(tell(0.6, 0.8));
+  FlightFit fit = fitting->finish();
   tell(0, 1)(1.0);
   return fit;
 }

@@ -77,7 +77,7 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
   fit.naive_covariance = inverse_of(fit.information + prior);
   fit.blocks = smoother.score_blocks(options.block_seconds);
   if (const NewtonStep last = newton_step(smoother, fit.u);
-      last.fall < kSure && theta.possible(fit.u + last.du)) {
+      last.fall < kSure && is_short(theta, fit.u, last.du)) {
     fit.u += last.du, fit.cost -= last.fall;
     for (ScoreBlock& block : fit.blocks) block.score += block.information * last.du;
   }

@@ -152,6 +152,12 @@ NewtonStep newton_step(const FlightSmoother& smoother, const VectorXd& u) {
   return {du, -g.dot(du)};
 }
 
+bool is_short(const Theta& theta, const VectorXd& u, const VectorXd& du) {
+  for (int i = 0; i < theta.constants_count(); ++i)
+    if (theta.constants()[static_cast<std::size_t>(i)].positive && !(std::abs(du[i]) < 1)) return false;
+  return theta.possible(u + du);
+}
+
 SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, const TrustRegion& region) {
   SharedResiduals residuals(smoother);
   SteppedProblem problem;
@@ -164,9 +170,9 @@ SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, c
   SteppedMinimum best = minimise_stepped(problem, start);
   int steps = best.steps;
   // From that far it would take ten more to shrink to where a step helps.
-  if (region.free && best.rejected && steps < region.max_steps) {
+  if (region.free && best.rejected) {
     problem.initial_radius = kShort, problem.most_rejected = kRejectedShort;
-    problem.max_steps = region.max_steps - steps;
+    problem.max_steps = std::max(region.max_steps - steps, 1);
     best = minimise_stepped(problem, best.u);
     steps += best.steps;
   }

@@ -30,6 +30,10 @@ struct NewtonStep {
 };
 NewtonStep newton_step(const FlightSmoother& smoother, const Eigen::VectorXd& u);
 
+/// Whether a step from u may be taken unseen, as far as its length goes: it leads to constants that are
+/// possible and changes none that is positive by more than a factor of e.
+bool is_short(const Theta& theta, const Eigen::VectorXd& u, const Eigen::VectorXd& du);
+
 /// A step that promises less than this fall of the cost is near the minimum.
 inline constexpr double kNear = 25.0;
 
