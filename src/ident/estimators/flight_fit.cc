@@ -41,7 +41,7 @@ std::unique_ptr<Fitting> started(const FlightRecord& record, const Theta& theta,
   if (misses) try {
       auto other = std::make_unique<Fitting>(record, theta, options);
       other->begin_with_noise();
-      other->find_noise(tell);
+      other->find_noise([](double) {});
       const double by_steps = fit->surprise(), by_noise = other->surprise();
       const bool likelier = !(by_steps <= by_noise);
       const bool bends_less = fit->pull() > kBent && other->pull() < fit->pull();
