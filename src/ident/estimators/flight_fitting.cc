@@ -64,21 +64,13 @@ Fitting::Fitting(const FlightRecord& record, const Theta& theta, const FlightFit
     : record_(record), theta_(theta), options_(options), u_(start_of(theta, options)), by_(options.steps) {}
 
 void Fitting::begin() {
-  chunk_ = options_.chunk_seconds > 0 ? options_.chunk_seconds : first_chunk(record_);
-  start();
-  if (options_.chunk_seconds <= 0 && !(square_of(*smoother_) < kFar)) {
-    chunk_ = std::max(kSureChunk, 4 * record_.interval);
-    start();
-  }
+  set_out();
   if (options_.estimate_noise) calm(*smoother_);
-  smoother_->set_gentle(true);
   trust_region(first_steps());
 }
 
 void Fitting::begin_with_noise() {
-  chunk_ = options_.chunk_seconds > 0 ? options_.chunk_seconds : first_chunk(record_);
-  start();
-  smoother_->set_gentle(true);
+  set_out();
   for (int round = 0; round < kBeforeSteps; ++round) {
     smoother_->linearize(u_, true);
     smoother_->accept();
@@ -198,6 +190,16 @@ FlightFit Fitting::unfinished() const {
   FlightFit fit;
   fit.u = u_, fit.steps = steps_, fit.noise = smoother_->noise(), fit.chunk_seconds = chunk_;
   return fit;
+}
+
+void Fitting::set_out() {
+  chunk_ = options_.chunk_seconds > 0 ? options_.chunk_seconds : first_chunk(record_);
+  start();
+  if (options_.chunk_seconds <= 0 && !(square_of(*smoother_) < kFar)) {
+    chunk_ = std::max(kSureChunk, 4 * record_.interval);
+    start();
+  }
+  smoother_->set_gentle(true);
 }
 
 void Fitting::start() {

@@ -46,6 +46,8 @@ class Fitting {
   TrustRegion first_steps() const;
   bool gave_up() const { return options_.most_steps > 0 && steps_ >= options_.most_steps; }
   FlightFit unfinished() const;
+  // To where the first step begins: states as measured, in chunks short enough for what they miss.
+  void set_out();
   void start();
   // From the states that were measured, or those of `from`.
   void restart(const NoiseModel& noise, int rounds = 2, const FlightSmoother* from = nullptr);
