@@ -49,6 +49,25 @@ TEST(FlightRecord, LogsWithAndWithoutCommandsAreNotMixed) {
   EXPECT_NO_THROW((void)make_flight_record(vehicle, parameter_vector(vehicle), logs));
 }
 
+// Motors nearly off: for a moment that is flown, for longer it is the ground.
+TEST(FlightRecord, APushOverIsFlownAndAStopIsNot) {
+  const Vehicle vehicle = random_vehicle(3);
+  SimulationOptions options;
+  options.duration = 10, options.rate = 100, options.longest_step = 0;
+  const FlightLog flown = simulate_flight(vehicle, options).log;
+  for (const double seconds : {0.3, 1.0}) {
+    std::vector<FlightLog> logs{flown};
+    for (std::size_t i = 0; i < flown.rows(); ++i)
+      if (flown.t[i] >= 5 && flown.t[i] < 5 + seconds)
+        for (std::vector<double>& delta : logs[0].delta) delta[i] = 0.01;
+    const FlightRecord record = make_flight_record(vehicle, parameter_vector(vehicle), logs);
+    const bool excluded =
+        std::ranges::find(record.warnings, "ground_excluded", &Warning::code) != record.warnings.end();
+    EXPECT_EQ(excluded, seconds > 0.5);
+    EXPECT_NEAR(record.duration, excluded ? 8.0 : 10.0, 0.1);
+  }
+}
+
 TEST(FlightRecord, AnExcerptHoldsItsShareOfEveryLog) {
   const Vehicle vehicle = random_vehicle(3);
   SimulationOptions options;

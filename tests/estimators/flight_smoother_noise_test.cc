@@ -61,6 +61,38 @@ TEST(FlightSmoother, RoundsInVainEnd) {
   EXPECT_NEAR(few.reduced().cost / many.reduced().cost, 1.0, 5e-3);
 }
 
+// In a search chunks are twice as long as no gust within them shows, and none shorter than a tenth of a
+// second.
+TEST(FlightSmoother, ChunksOfASearchAreTwiceAsLong) {
+  const Gusty flight(3.0);
+  NoiseModel noise = initial_noise(flight.record);
+  for (const double gust : {0.01, 0.1, 1.0, 10.0}) {
+    noise.air[0].w_dot.fill({gust, 0.5}), noise.air[0].v_dot.fill({gust, 0.5});
+    const double fine = chunk_for(flight.record, noise), search = chunk_for(flight.record, noise, false);
+    EXPECT_DOUBLE_EQ(search, std::clamp(2 * fine, 0.1, 0.25)) << gust;
+  }
+}
+
+// Steps of lower order push the vehicle a little. In gusts that is nothing; where there are none it would
+// pass for what acts on it.
+TEST(FlightSmoother, WhatStepsPushShowsInStillAir) {
+  const Gusty flight(8.0);
+  FlightSmoother smoother(flight.record, flight.theta, initial_noise(flight.record), 0.1);
+  smoother.set_steps(Steps::coarse);
+  const auto worth = [&](double gust) {
+    NoiseModel noise = smoother.noise();
+    noise.air[0].w_dot.fill({gust, 0.5}), noise.air[0].v_dot.fill({gust, 0.5});
+    smoother.set_noise(noise);
+    smoother.settle(flight.u, 3);
+    return smoother.worth_of_fine_steps().links;
+  };
+  const double gusty = worth(0.3), still = worth(1e-4);
+  EXPECT_GT(gusty, 0);
+  EXPECT_GT(still, 1e5 * gusty);
+  smoother.set_steps(Steps::fine);
+  EXPECT_EQ(smoother.worth_of_fine_steps().links, 0);
+}
+
 // Slow gusts, of which the time says little: their noise and that time follow each other, to and fro unless
 // steps become shorter.
 TEST(FlightSmoother, SlowGustsLeadTheirNoiseNotInCircles) {

@@ -40,6 +40,37 @@ TEST(FlightSmoother, ConstantProfileTakesUpTheMomentOfAnOffCentreMass) {
   EXPECT_NEAR(step[theta.size()], expected, 0.1 * expected);
 }
 
+// Six rotors, no speeds: as rotors change against each other the motion tells nothing of it, and what is
+// known of the rest keeps its digits all the same.
+TEST(FlightSmoother, SixRotorsWithoutSpeedsAreAsGoodAsWithThem) {
+  Vehicle vehicle = small_quad();
+  vehicle.rotors.clear();
+  for (int n = 0; n < 6; ++n) {
+    Rotor rotor = small_quad().rotors[static_cast<std::size_t>(n % 2)];
+    rotor.r_B = {0.2 * std::cos(n * 1.0471975512), 0.2 * std::sin(n * 1.0471975512), 0};
+    vehicle.rotors.push_back(rotor);
+  }
+  vehicle.parameters["kT"].value *= 4.0 / 6;
+  SimulationOptions options;
+  options.duration = 30, options.rate = 100, options.signals.rotor_speeds = 0;
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, options).log};
+  const std::vector<double> p = parameter_vector(vehicle);
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  const Theta theta(p, free_constants(vehicle, p), 1, true);
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(theta.size());
+  for (const Steps steps : {Steps::fine, Steps::longest}) {
+    FlightSmoother smoother(record, theta, initial_noise(record), 0.2);
+    smoother.set_steps(steps);
+    smoother.settle(u, 4);
+    double samples = 0;
+    for (const double y : record.arcs[0].y) samples += std::isfinite(y);
+    const ReducedSystem& system = smoother.linearize(u);
+    EXPECT_GT(system.cost, 0.5 * samples);
+    EXPECT_LT(system.cost, 2.0 * samples);
+    EXPECT_LT(system.fall, 1e-3 * system.cost) << "states are not at their best";
+  }
+}
+
 // Without rotor speeds only kT km^2, kQ km^2 and Jp km can be known: along what they leave open neither the
 // cost nor its gradient may change, whatever the motors' states take up of the noise.
 TEST(FlightSmoother, UnmeasuredRotorSpeedsAreFreeOfScale) {

@@ -263,7 +263,11 @@ TEST(Verdict, WithoutACauseAContradictedBenchValueIsAGap) {
   EXPECT_EQ(seen.status, "unknown");
   EXPECT_NE(seen.sentence.find("kT"), std::string::npos) << seen.sentence;
   c.contradicts_kT(4.0);
-  EXPECT_EQ(c.judged().status, "none");
+  const Judged doubted = c.judged();
+  EXPECT_EQ(doubted.status, "none");
+  EXPECT_NE(doubted.sentence.find("kT by 4.0 standard deviations"), std::string::npos) << doubted.sentence;
+  c.contradicts_kT(2.0);
+  EXPECT_NE(c.judged().sentence.find("within what was stated"), std::string::npos);
 }
 
 TEST(Verdict, TheDragThatWindBringsAlongIsNotNamed) {

@@ -12,8 +12,8 @@ constexpr double kNoGust = 0.01;       // m/s^2: weaker ones move no constant, w
 constexpr double kBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
 constexpr int kRetune = 3;
 // Shortest chunks, s; in a search, where models that miss much ask for the shortest, less would cost time
-// only.
-constexpr double kFinest = 0.03, kFinestSearch = 0.1;
+// only. The longest, and how much longer those of a search are.
+constexpr double kFinest = 0.03, kFinestSearch = 0.1, kLongest = 0.25, kInSearch = 2.0;
 
 double rms_rate_of(const FlightRecord& record, int channel) {
   double sum = 0, n = 0;
@@ -96,14 +96,16 @@ bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {
   // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
-  // the velocity by h/4 of that. This may reach half the noise of one sample; or, since all rows of the chunk
-  // share the error, a quarter of the noise of their mean.
-  double h = 0.25;
+  // the velocity by h/4 of that. This may reach a quarter of the noise of the mean of a chunk's rows, which
+  // share the error. In a search chunks are twice as long: where a controller answers gusts, what they miss
+  // then passes for about a standard deviation of what its answers tell of (Jp, the motors' lag); 3.5 times
+  // as long it was four to ten.
+  double h = kLongest;
   const auto shorten = [&](std::size_t channel, const std::array<ColouredNoise, 3>& process) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (record.sigma[channel + i] == 1.0 || !(process[i].sigma > 0)) continue;  // 1: not measured
       const double ratio = noise.sigma[channel + i] * std::sqrt(process[i].tau / 2) / process[i].sigma;
-      h = std::min(h, fine ? std::sqrt(ratio * std::sqrt(record.interval)) : std::pow(2 * ratio, 2.0 / 3.0));
+      h = std::min(h, (fine ? 1.0 : kInSearch) * std::sqrt(ratio * std::sqrt(record.interval)));
     }
   };
   for (const AirNoise& air : noise.air) shorten(kGyro, air.w_dot), shorten(kVelocity, air.v_dot);
@@ -115,7 +117,7 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine)
     return axes;
   };
   shorten(kGyro, as_noise(0)), shorten(kVelocity, as_noise(3));
-  return std::clamp(h, std::max(4.0 * record.interval, fine ? kFinest : kFinestSearch), 0.25);
+  return std::clamp(h, std::max(4.0 * record.interval, fine ? kFinest : kFinestSearch), kLongest);
 }
 
 }  // namespace ident

@@ -13,6 +13,7 @@ namespace ident {
 namespace {
 
 constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
+constexpr double kPushOver = 0.5;      ///< s: so short a time below it is flown
 // With rows the commands are missing: so many steps without one, at least so many seconds, end an arc.
 constexpr double kMissedRows = 5.0, kShortestGap = 0.03;
 constexpr double kEnoughLeft = 0.7;  // of the flight, in such pieces
@@ -44,9 +45,14 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
   const double threshold = kGroundShare * median(turning);
   std::size_t grounded = 0;
   double quiet_until = -1e300;
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    if (!(level[i] > threshold)) quiet_until = log.t[i] + 1.0;  // spin-up and the first second of lift-off
-    if (log.t[i] < quiet_until) fly[i] = false, ++grounded;
+  for (std::size_t i = 0; i < log.rows();) {
+    const auto low = [&](std::size_t row) { return !(level[row] > threshold); };
+    std::size_t end = i + 1;
+    while (end < log.rows() && low(end) == low(i)) ++end;
+    const bool pushed_over = i > 0 && end < log.rows() && log.t[end] - log.t[i] < kPushOver;
+    if (low(i) && !pushed_over) quiet_until = log.t[end - 1] + 1.0;  // the first second of lift-off as well
+    for (; i < end; ++i)
+      if (log.t[i] < quiet_until) fly[i] = false, ++grounded;
   }
   if (grounded > 0 && grounded < log.rows()) {
     warnings.push_back({"ground_excluded",

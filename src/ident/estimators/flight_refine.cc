@@ -120,19 +120,25 @@ void doubt_negative_dead_time(Result& result) {
       "the model lacks something (try ident gap)");
 }
 
-void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
-  for (const Parameter& p : result.parameters) {
-    const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
-    if (p.pull && heard && std::abs(*p.pull) > 3) {
+bool disagrees(const Parameter& p) {
+  const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
+  return p.pull && heard && std::abs(*p.pull) > 3;
+}
+
+void warn_of_disagreement(Result& result, std::string_view advice) {
+  for (const Parameter& p : result.parameters)
+    if (disagrees(p))
       result.warn(
           "prior_disagrees",
           fmt::format(
               "{}: flight says {}, the value given beforehand was {} ({:+.1f} standard deviations): one of "
-              "the two is wrong, or the model lacks an effect (try ident gap)",
+              "the two is wrong, or {}",
               p.name, format_with_uncertainty(p.value, p.std),
-              format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull));
-    }
-  }
+              format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull, advice));
+}
+
+void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
+  warn_of_disagreement(result, "the model lacks an effect (try ident gap)");
   doubt_negative_dead_time(result);
   std::string unknown;
   for (const Parameter& p : result.parameters)

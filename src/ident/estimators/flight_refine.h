@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <string_view>
 
 #include "ident/core/result.h"
 #include "ident/core/shown.h"
@@ -42,6 +43,12 @@ bool is_before_its_command(const Parameter& p);
 
 /// Warns (`negative_dead_time`) of such a one, which counts as not identifiable.
 void doubt_negative_dead_time(Result& result);
+
+/// Whether flight says another value than was given beforehand, by more than 3 standard deviations.
+bool disagrees(const Parameter& p);
+
+/// Warns of those that do; `advice`: what else it may be.
+void warn_of_disagreement(Result& result, std::string_view advice);
 
 /// Warns where the flight disagrees with what was known beforehand, and of what it does not determine.
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit);

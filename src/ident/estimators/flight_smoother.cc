@@ -75,6 +75,7 @@ void FlightSmoother::set_noise(const NoiseModel& noise) {
   if (!turn) return;
   set_axes();
   accepted() = {};  // steps along other axes
+  if (covariances_.of == accepted_at_) covariances_.of.reset();
 }
 
 void FlightSmoother::unlink() {
@@ -132,7 +133,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
     one.steps = by_, one.exact = exact_, one.few_leverages = true;
     chunk::RowMatrix covariance;
     if (leverage) {
-      covariance = accepted().P[k].leftCols(record_->layout.size);
+      covariance = covariances_.P[k].leftCols(record_->layout.size);
       one.covariance = covariance.data();
     }
     evaluate_chunk(one, results_[k]);
@@ -164,7 +165,7 @@ void FlightSmoother::shorten_wild_steps(const VectorXd& u, bool leverage) {
 }
 
 const ReducedSystem& FlightSmoother::linearize(const VectorXd& u, bool leverage) {
-  if (leverage) posterior_covariances(accepted());
+  if (leverage) covariances_by(accepted_at_);
   predict(u);
   evaluate(u, true, leverage);
   if (gentle_) shorten_wild_steps(u, leverage);
@@ -204,20 +205,6 @@ std::vector<std::vector<double>> FlightSmoother::residuals() {
   std::vector<std::vector<double>> all;
   for (const ChunkResult& r : results_) all.push_back(r.residuals);
   return all;
-}
-
-double FlightSmoother::worth_of_fine_steps() {
-  const Steps present = by_;
-  std::array<std::vector<std::vector<double>>, 2> by;
-  for (std::size_t i = 0; i < 2; ++i) {
-    by_ = i == 0 ? Steps::fine : present;
-    by[i] = residuals();
-  }
-  double sum = 0;
-  for (std::size_t k = 0; k < by[0].size(); ++k)
-    for (std::size_t i = 0; i < by[0][k].size(); ++i)
-      if (const double d = by[0][k][i] - by[1][k][i]; std::isfinite(d)) sum += d * d;
-  return sum;
 }
 
 std::vector<VectorXd> FlightSmoother::defects() const {

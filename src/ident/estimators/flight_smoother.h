@@ -99,9 +99,12 @@ class FlightSmoother {
   }
   void set_steps(Steps steps) { stands_ = stands_ && steps == by_, by_ = steps; }
   Steps steps() const { return by_; }
-  /// What fine steps would change at the accepted states: sum of the squares of the differences of weighted
-  /// residuals.
-  double worth_of_fine_steps();
+  /// What fine steps would change at the accepted states, squared and summed.
+  struct WorthOfSteps {
+    double rows = 0;   ///< differences of weighted residuals
+    double links = 0;  ///< noise of motors and gusts that would bring about the differences where chunks end
+  };
+  WorthOfSteps worth_of_fine_steps();
   /// Steps of states from which nothing flies are shortened. Without, the cost there is no number.
   void set_gentle(bool gentle) { gentle_ = gentle; }
   double huber() const { return huber_; }
@@ -164,13 +167,19 @@ class FlightSmoother {
   static Chain chain_of(std::size_t begin, std::size_t end);
 
   // x_k moves by -(f_k + B_k du) - G_k dx_next, with the chunk next to it towards where the ends meet. L L'
-  // is the information on x_k from its own end of the chain. Once `smoothed`, P is its covariance from all of
-  // the chain, `cross` that of x_(k+1) and x_k. Shared unknowns are held in all three. Rows are padded but
-  // for L; Gt is G transposed, and B is what [G | B f] holds from column padded(n) on.
+  // is the information on x_k from its own end of the chain, shared unknowns held. Rows are padded but for L;
+  // Gt is G transposed, and B is what [G | B f] holds from column padded(n) on.
   struct Elimination {
-    std::vector<chunk::RowMatrix> GBf, Gt, L, P, cross;
+    std::vector<chunk::RowMatrix> GBf, Gt, L;
     std::vector<Eigen::VectorXd> f;
-    bool held = false, smoothed = false;  // shared unknowns held: no B
+    bool held = false;  // shared unknowns held: no B
+  };
+
+  // P of x_k from all of its chain, by one elimination, `cross` of x_(k+1) and x_k; shared unknowns held,
+  // rows padded.
+  struct Covariances {
+    std::vector<chunk::RowMatrix> P, cross;
+    std::optional<std::size_t> of;  // place of the elimination
   };
 
   // What is the same in each elimination of a linearisation.
@@ -201,6 +210,7 @@ class FlightSmoother {
   const AirNoise& air_of(std::size_t k) const;
   Eigen::VectorXd outside(std::size_t k) const;
   double new_error(std::size_t k, int axis, double carried) const;
+  double noise_that_makes(const std::vector<Eigen::VectorXd>& defects) const;
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
   void begin_eliminations();
@@ -221,7 +231,7 @@ class FlightSmoother {
   void set_axes();
   void set_input_errors();
   chunk::RowMatrix own_covariance(const Elimination& el, std::size_t k) const;
-  void posterior_covariances(Elimination& el) const;
+  const Covariances& covariances_by(std::size_t elimination);
   Elimination& accepted() { return eliminations_[accepted_at_]; }
   const Elimination& accepted() const { return eliminations_[accepted_at_]; }
   Elimination& last() { return eliminations_[last_at_]; }
@@ -249,6 +259,7 @@ class FlightSmoother {
   // The accepted elimination and the last one; the same one from accept() to the next eliminate().
   std::array<Elimination, 2> eliminations_;
   std::size_t accepted_at_ = 0, last_at_ = 0;
+  Covariances covariances_;  // the largest thing here: kept once
   ReducedSystem reduced_;
 };
 

@@ -39,21 +39,25 @@ void FlightSmoother::outward(
   });
 }
 
-// Recursion for the posterior covariance of each state and of neighbours, shared unknowns held.
-void FlightSmoother::posterior_covariances(Elimination& el) const {
-  if (el.smoothed) return;
-  el.smoothed = true;
+// By the recursion outward.
+const FlightSmoother::Covariances& FlightSmoother::covariances_by(std::size_t elimination) {
+  Covariances& all = covariances_;
+  if (all.of == elimination) return all;
+  all.of = elimination;
+  all.P.resize(places_.size()), all.cross.resize(places_.size());
+  const Elimination& el = eliminations_[elimination];
   const int n = record_->layout.size, columns = padded(n);
   const DenseRows& dense = dense_rows();
   outward([&](std::size_t k, std::optional<std::size_t> next) {
-    el.P[k] = own_covariance(el, k);
+    all.P[k] = own_covariance(el, k);
     if (!next) return;
     chunk::RowMatrix cross = chunk::RowMatrix::Zero(n, columns);  // of the next one and this
-    dense.add_products(rows_of(cross), rows_in(el.P[*next]), n, rows_in(el.Gt[k]), columns, n, -1.0);
-    dense.add_products(rows_of(el.P[k]), rows_in(cross), n, rows_in(el.Gt[k]), columns, n, -1.0);
+    dense.add_products(rows_of(cross), rows_in(all.P[*next]), n, rows_in(el.Gt[k]), columns, n, -1.0);
+    dense.add_products(rows_of(all.P[k]), rows_in(cross), n, rows_in(el.Gt[k]), columns, n, -1.0);
     if (*next < k) cross.leftCols(n).transposeInPlace();
-    el.cross[std::min(k, *next)] = std::move(cross);
+    all.cross[std::min(k, *next)] = std::move(cross);
   });
+  return all;
 }
 
 // Steps of the shared unknowns to the optimum of the last linearisation, priors included.

@@ -219,8 +219,9 @@ void FlightSmoother::eliminate(const VectorXd* held_step) {
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
   const std::size_t K = places_.size();
-  el.GBf.resize(K), el.Gt.resize(K), el.f.resize(K), el.L.resize(K), el.P.resize(K), el.cross.resize(K);
-  el.held = held, el.smoothed = false;
+  el.GBf.resize(K), el.Gt.resize(K), el.f.resize(K), el.L.resize(K);
+  el.held = held;
+  if (covariances_.of == last_at_) covariances_.of.reset();
   std::vector<std::array<std::unique_ptr<Sweep>, 2>> ends(chains_.size());
   in_parallel(2 * chains_.size(),
               [&](std::size_t i) { ends[i / 2][i % 2] = sweep(chains_[i / 2], i % 2 == 0, held); });

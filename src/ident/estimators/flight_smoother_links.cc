@@ -27,8 +27,11 @@ constexpr double kMotorFloor = 100.0;
 
 double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma + kLeastOutside; }
 
-// What is known beforehand of what an arc does not measure: 10 rad/s, 1 rad, 20 m/s, 100 m.
+// What is known beforehand of what an arc does not measure: 10 rad/s, 1 rad, 20 m/s, 100 m; of a rotor, more
+// than four of which leave the motion alone as they change against each other, 30 rad/s and 3000 rad/s^2.
 constexpr double kUnseenRate = 1e-2, kUnseenAttitude = 1.0, kUnseenVelocity = 2.5e-3, kUnseenPlace = 1e-4;
+constexpr int kAllTold = 4;  // rotors, by the motion alone
+constexpr double kUnseenSpeed = 1e-3, kUnseenSpeeding = 1e-7;
 
 std::array<bool, kChannels> measured_in(const FlightArc& arc) {
   std::array<bool, kChannels> seen{};
@@ -53,6 +56,9 @@ VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
   assume(layout.attitude, kUnseenAttitude, kAttitude, kAttitude);
   assume(layout.v, kUnseenVelocity, kVelocity, kPosition);
   assume(layout.x, kUnseenPlace, kPosition, kPosition);
+  for (int n = 0; n < layout.rotors && layout.rotors > kAllTold && layout.motors >= 0; ++n)
+    if (!seen[static_cast<std::size_t>(kRotorChannel + n)])
+      info[layout.motors + n] = kUnseenSpeed, info[layout.motors + layout.rotors + n] = kUnseenSpeeding;
   return info;
 }
 

@@ -132,7 +132,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
     if (round > 0) eliminate(again ? nullptr : &du);
     if (again) du = shared_optimum();
     Elimination& el = last();
-    posterior_covariances(el);
+    const auto& [P, cross, of] = covariances_by(last_at_);
     const std::vector<VectorXd> dx = state_steps(el, du);
     struct LogMoments {
       std::array<ProcessMoments, 3> turn, push;
@@ -150,8 +150,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
         for (int i = at; at >= 0 && i < at + 3; ++i) {
           const auto axis = static_cast<std::size_t>(i - at);
           const double error = new_error(k, first + i - at, noise[axis].carried(h));
-          sum[axis].add(noise[axis], error, now[i], next[i], el.P[k](i, i), el.P[k + 1](i, i),
-                        el.cross[k](i, i), h);
+          sum[axis].add(noise[axis], error, now[i], next[i], P[k](i, i), P[k + 1](i, i), cross[k](i, i), h);
         }
       };
       LogMoments& log = logs[static_cast<std::size_t>(arc.log)];
@@ -162,8 +161,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
       for (int r = layout.motors; r < layout.motors + layout.rotors; ++r) {
         const VectorXd e = E.row(r).head(n).transpose();
         const double left = d[r] + e.dot(dx[k]) + E.row(r).tail(theta_->size()).dot(du) - dx[k + 1][r];
-        const double V =
-            e.dot(el.P[k].leftCols(n) * e) - 2 * el.cross[k].row(r).head(n).dot(e) + el.P[k + 1](r, r);
+        const double V = e.dot(P[k].leftCols(n) * e) - 2 * cross[k].row(r).head(n).dot(e) + P[k + 1](r, r);
         motors += W[r] * left * left, motors_determined += 1 - W[r] * V, links += 1;
         motors_floor += 1 / (W[r] * h) - noise_.q_motor;
       }

@@ -100,8 +100,8 @@ std::vector<FlightSmoother::End> FlightSmoother::arc_ends() {
   std::vector<End> ends;
   for (const Chain& chain : chains_) {
     const std::size_t last = chain.end - 1;
-    if (chain.meet != last) posterior_covariances(accepted());
-    const MatrixXd P = chain.meet == last ? own_covariance(accepted(), last) : accepted().P[last];
+    const MatrixXd P =
+        chain.meet == last ? own_covariance(accepted(), last) : covariances_by(accepted_at_).P[last];
     const MatrixXd E = chunk::E(results_[last], n).leftCols(n);
     ends.push_back({moved(results_[last].x_end, E * dx[last]), E * P.leftCols(n) * E.transpose()});
   }

@@ -203,6 +203,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
   Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   doubt_negative_dead_time(result);
+  warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
   if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);

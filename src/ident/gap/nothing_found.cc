@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_refine.h"
 #include "ident/gap/against_naming.h"
 
 namespace ident {
@@ -18,6 +19,14 @@ constexpr double kOfConstants = 0.5;
 // Times the noise floor of what is missed on held-out flight with no cause found: in 400 flights without one
 // the most was 1.53.
 constexpr double kAboveFloor = 2.0;
+
+// How far refitted constants went from what was stated of them.
+std::string from_what_was_stated(const std::vector<Parameter>& fitted) {
+  const auto size = [](const Parameter& p) { return disagrees(p) ? std::abs(*p.pull) : 0.0; };
+  const auto most = std::ranges::max_element(fitted, {}, size);
+  if (most == fitted.end() || size(*most) == 0) return "within what was stated of them";
+  return fmt::format("{} by {:.1f} standard deviations of what was stated of it", most->name, size(*most));
+}
 
 // To what the model explains the logs.
 std::string remaining_noise(const GapClosed& gap) {
@@ -61,9 +70,9 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
   else if (gap.closed > kOfConstants)
     out = {.status = "none",
            .sentence =
-               "No cause stands out: with its constants refitted, within what was stated of them, the "
-               "model explains these logs down to " +
-               remaining_noise(gap) + "."};
+               fmt::format("No cause stands out: with its constants refitted, {}, the model explains these "
+                           "logs down to {}.",
+                           from_what_was_stated(fitted), remaining_noise(gap))};
   else
     out = {.status = "none",
            .sentence =
