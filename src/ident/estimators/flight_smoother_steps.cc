@@ -12,55 +12,49 @@ namespace {
 
 constexpr double kLeastVariance = 1e-10;  // of an acceleration: no noise means none
 
-// Of a process that is what one chunk after the other asks of it, minus twice the logarithm of its likelihood
-// but for a constant.
-class Price {
+// Accelerations about or along an axis, one for each chunk of a chain: minus twice the logarithm of their
+// likelihood under a process, but for a constant.
+class Surprise {
  public:
-  explicit Price(const ColouredNoise& noise) : noise_(noise) {}
-  double of_next(double acceleration, double h) {
-    const double variance = noise_.sigma * noise_.sigma + kLeastVariance;
-    const double carried = begun_ ? noise_.carried(h) : 0.0, fresh = acceleration - carried * last_;
+  double of_next(const ColouredNoise& noise, double acceleration, double h) {
+    const double carried = begun_ ? noise.carried(h) : 0.0, fresh = acceleration - carried * last_;
     begun_ = true, last_ = acceleration;
-    return fresh * fresh / (variance * (1 - carried * carried) + kLeastVariance);
+    return fresh * fresh / (noise.sigma * noise.sigma * (1 - carried * carried) + kLeastVariance);
   }
 
  private:
-  ColouredNoise noise_;
   double last_ = 0;
   bool begun_ = false;
 };
 
 }  // namespace
 
-// Differences of velocities and rates as accelerations from outside would make them, those of motors as their
-// own noise would.
+// Rates and velocities that differ as accelerations from outside would make them, motors as their own noise
+// would.
 double FlightSmoother::noise_that_makes(const std::vector<VectorXd>& defects) const {
   const StateLayout& layout = record_->layout;
-  std::vector<std::array<Price, 6>> prices;
+  std::array<Surprise, 6> surprise;
   double sum = 0;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
-    if (k == 0 || !places_[k - 1].linked) {
-      const AirNoise& air = noise_.in_log(arc.log);
-      prices.assign(1, {Price(air.w_dot[0]), Price(air.w_dot[1]), Price(air.w_dot[2]), Price(air.v_dot[0]),
-                        Price(air.v_dot[1]), Price(air.v_dot[2])});
-    }
+    if (k == 0 || !places_[k - 1].linked) surprise = {};
     if (!places_[k].linked) continue;
+    const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
     const double h = arc.t[places_[k].end] - arc.t[places_[k].begin];
+    const AirNoise& air = air_of(k);
     const VectorXd& d = defects[k];
-    const auto add = [&](const Eigen::Vector3d& moved, std::size_t first) {
+    const auto add = [&](const std::array<ColouredNoise, 3>& noise, const Eigen::Vector3d& moved,
+                         std::size_t first) {
       for (std::size_t i = 0; i < 3; ++i)
-        sum += prices[0][first + i].of_next(moved[static_cast<Eigen::Index>(i)] / h, h);
+        sum += surprise[first + i].of_next(noise[i], moved[static_cast<Eigen::Index>(i)] / h, h);
     };
-    if (layout.w_dot >= 0) add(d.segment<3>(layout.w), 0);
+    if (layout.w_dot >= 0) add(air.w_dot, d.segment<3>(layout.w), 0);
     if (layout.v_dot >= 0) {
-      const Eigen::Vector3d push = d.segment<3>(layout.v);
-      add(noise_.axes == GustAxes::world ? push
-                                         : Eigen::Vector3d(rotation(states_[k].body.q_WB).transpose() * push),
-          3);
+      Eigen::Vector3d push = d.segment<3>(layout.v);
+      if (noise_.axes == GustAxes::body) push = rotation(states_[k].body.q_WB).transpose() * push;
+      add(air.v_dot, push, 3);
     }
     if (layout.motors < 0) continue;
-    const Eigen::Index motors = 2 * record_->layout.rotors;
+    const Eigen::Index motors = 2 * layout.rotors;
     sum += link_weight(k).segment(layout.motors, motors).dot(d.segment(layout.motors, motors).cwiseAbs2());
   }
   return sum;
