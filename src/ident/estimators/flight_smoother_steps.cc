@@ -54,7 +54,7 @@ double FlightSmoother::noise_that_makes(const std::vector<VectorXd>& defects) co
       add(air.v_dot, push, 3);
     }
     if (layout.motors < 0) continue;
-    const Eigen::Index motors = 2 * layout.rotors;
+    const int motors = 2 * layout.rotors;
     sum += link_weight(k).segment(layout.motors, motors).dot(d.segment(layout.motors, motors).cwiseAbs2());
   }
   return sum;
