@@ -93,6 +93,41 @@ TEST(FlightSmoother, WhatStepsPushShowsInStillAir) {
   EXPECT_EQ(smoother.worth_of_fine_steps().links, 0);
 }
 
+// The same by the density of the process, axis by axis.
+TEST(FlightSmoother, WhatStepsPushIsJudgedByTheProcessOfGusts) {
+  const Gusty flight(4.0);
+  FlightSmoother smoother(flight.record, flight.theta, initial_noise(flight.record), 0.1);
+  constexpr double sigma = 0.02, tau = 0.3;
+  NoiseModel noise = smoother.noise();
+  noise.air[0].w_dot.fill({sigma, tau}), noise.air[0].v_dot.fill({sigma, tau});
+  smoother.set_noise(noise);
+  smoother.settle(flight.u, 3);
+  const auto defects_by = [&](Steps steps) {
+    smoother.set_steps(steps);
+    (void)smoother.residuals();
+    return smoother.defects();
+  };
+  const auto fine = defects_by(Steps::fine), coarse = defects_by(Steps::coarse);
+  const StateLayout& layout = flight.record.layout;
+  double expected = 0;
+  for (const int from : {layout.w, layout.v})
+    for (int i = from; i < from + 3; ++i) {
+      double before = 0;
+      for (std::size_t k = 0; k + 1 < fine.size(); ++k) {
+        const ChunkPlace& place = smoother.chunks()[k];
+        const std::vector<double>& t = flight.record.arcs[0].t;
+        const double push = (fine[k][i] - coarse[k][i]) / (t[place.end] - t[place.begin]);
+        // What is carried over is that of the link from the chunk before.
+        const double last = k > 0 ? t[place.begin] - t[smoother.chunks()[k - 1].begin] : 0.0;
+        const double carried = k > 0 ? std::exp(-last / tau) : 0.0;
+        const double fresh = push - carried * before;
+        expected += fresh * fresh / (sigma * sigma * (1 - carried * carried));
+        before = push;
+      }
+    }
+  EXPECT_NEAR(smoother.worth_of_fine_steps().links / expected, 1.0, 1e-3);
+}
+
 // Slow gusts, of which the time says little: their noise and that time follow each other, to and fro unless
 // steps become shorter.
 TEST(FlightSmoother, SlowGustsLeadTheirNoiseNotInCircles) {
