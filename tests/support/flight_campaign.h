@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ident/data/flight_log.h"
+#include "ident/estimators/flight_noise.h"
 #include "ident/model/simulate.h"
 #include "ident/model/vehicle.h"
 
@@ -17,7 +18,8 @@ struct Case {
   std::uint64_t seed = 0;
   Vehicle truth, stated;
   bool rotor_speeds = true;
-  double gusts = 0.0;  ///< standard deviation, m/s
+  double gusts = 0.0;             ///< standard deviation, m/s
+  ColouredNoise drift{0.0, 6.0};  ///< of the attitude shown, rad
   std::vector<SimulatedFlight> flights;
   std::vector<std::string> scenarios;
   /// Standard deviation of what the air does over that of what the rotors do, both without gravity:
@@ -31,6 +33,7 @@ struct CaseOptions {
   double seconds = 40.0;  ///< of each of two logs
   bool turbulence = false;
   bool commands = true;  ///< without, measured rotor speeds are the input
+  double drift = 0.0;    ///< standard deviation of a slow error of the attitude shown, rad
 };
 
 /// Layouts 4sp, plus and x; a quarter without rotor speeds; each constant but the mass (0.2 %) known to 5 to

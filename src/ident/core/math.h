@@ -110,6 +110,13 @@ inline Eigen::Vector4d quaternion_from_rotation_vector(const Eigen::Vector3d& d)
   return {std::cos(angle / 2), s * d[0], s * d[1], s * d[2]};
 }
 
+/// The other way round: the rotation vector of a unit quaternion, no longer than pi.
+inline Eigen::Vector3d rotation_vector_from_quaternion(const Eigen::Vector4d& q) {
+  const Eigen::Vector3d v(q[1], q[2], q[3]);
+  const double s = v.norm(), c = std::abs(q[0]), sign = q[0] < 0 ? -1.0 : 1.0;
+  return s < 1e-9 ? Eigen::Vector3d(2.0 * sign * v) : Eigen::Vector3d(sign * 2.0 * std::atan2(s, c) / s * v);
+}
+
 /// Inverse of a 3x3 matrix by cofactors: no pivoting, so that it is smooth; for well-conditioned matrices.
 template <class S>
 Mat3<S> inverse(const Mat3<S>& A) {

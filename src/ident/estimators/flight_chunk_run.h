@@ -166,7 +166,7 @@ class ChunkRun {
         S turn = sum(sum(sum(S((twice * m[0]) * q[own]), -twice * m[own], q[0]), -twice * m[next], q[last]),
                      twice * m[last], q[next]);
         if (delayed_) turn = turn - delay_beyond_ * w[k];
-        sink(row, kAttitude + k, turn);
+        sink(row, kAttitude + k, S(turn + task_.x0.attitude_error[k]));
       }
     }
   }

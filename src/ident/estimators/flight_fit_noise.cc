@@ -47,6 +47,7 @@ NoiseModel initial_noise(const FlightRecord& record) {
   air.w_dot.fill({0.2 * w, 0.1});
   air.v_dot.fill({0.1 * v, 0.5});
   noise.air.assign(static_cast<std::size_t>(record.logs), air);
+  noise.attitude_error = record.attitude_error;
   noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
   return noise;
 }

@@ -34,6 +34,7 @@ struct StateLayout {
   int w = 0, attitude = -1, v = -1, x = -1;  ///< three components each
   int motors = -1;                           ///< Omega of all rotors, then their rates
   int w_dot = -1, v_dot = -1;                ///< accelerations from outside, three components each
+  int attitude_error = -1;                   ///< of the attitude shown, three components
   int size = 3;
 };
 

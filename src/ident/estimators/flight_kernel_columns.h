@@ -11,7 +11,7 @@ namespace ident {
 /// pack.
 template <class Isa>
 struct KernelColumn {
-  enum class Kind { dual, position, velocity, push, bias };
+  enum class Kind { dual, position, velocity, push, bias, shown };
   int external = -1, axis = 0;
   Kind kind = Kind::dual;
   double derivative = 1.0;
@@ -52,8 +52,7 @@ struct KernelColumns {
     while (columns < 8 * packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
     for (int i = 0; i < layout.size; ++i) {
       const Kind kind = kind_of(task, touches, i);
-      const int first = kind == Kind::position ? layout.x : kind == Kind::velocity ? layout.v : layout.v_dot;
-      if (kind != Kind::dual) add({i, i - first, kind, 1.0});
+      if (kind != Kind::dual) add({i, i - first_of(layout, kind), kind, 1.0});
     }
     for (const Seed& seed : task.seeds)
       if (seed.slot >= kParameterCount)
@@ -61,11 +60,26 @@ struct KernelColumns {
   }
 
  private:
+  static int first_of(const StateLayout& layout, Kind kind) {
+    switch (kind) {
+      case Kind::position:
+        return layout.x;
+      case Kind::velocity:
+        return layout.v;
+      case Kind::push:
+        return layout.v_dot;
+      default:
+        return layout.attitude_error;
+    }
+  }
+
   // Where a chunk starts matters to nothing but the ground; how fast, to drag and what the flow touches; a
-  // push in the world reaches the accelerometer as it is unless that is turned.
+  // push in the world reaches the accelerometer as it is unless that is turned. What the attitude shows adds
+  // to the attitude.
   static Kind kind_of(const ChunkTask& task, unsigned touches, int i) {
     const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
     const StateLayout& layout = task.layout;
+    if (within(layout.attitude_error)) return Kind::shown;
     if ((touches & kTouchHeight) != 0) return Kind::dual;
     if (within(layout.x)) return Kind::position;
     if ((touches & kTouchFlow) != 0) return Kind::dual;

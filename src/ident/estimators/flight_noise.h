@@ -25,12 +25,14 @@ struct AirNoise {
   std::array<ColouredNoise, 3> v_dot;  ///< acceleration along the axes of NoiseModel::axes, m/s^2
 };
 
-/// White noise of every channel, and the process noise: the sensors are the same in all logs, the air is not.
+/// White noise of every channel, the slow error of an attitude that drifts, and the process noise: the
+/// sensors are the same in all logs, the air is not.
 struct NoiseModel {
   std::array<double, kChannels> sigma{};
-  std::vector<AirNoise> air;        ///< of each log
-  double q_motor = 0.0;             ///< spectral density on rotor speeds, (rad/s)^2/s
-  GustAxes axes = GustAxes::world;  ///< of all v_dot
+  std::vector<AirNoise> air;                    ///< of each log
+  std::array<ColouredNoise, 3> attitude_error;  ///< of the attitude shown, about the axes of the body, rad
+  double q_motor = 0.0;                         ///< spectral density on rotor speeds, (rad/s)^2/s
+  GustAxes axes = GustAxes::world;              ///< of all v_dot
 
   AirNoise& in_log(int log) { return air[static_cast<std::size_t>(log)]; }
   const AirNoise& in_log(int log) const { return air[static_cast<std::size_t>(log)]; }

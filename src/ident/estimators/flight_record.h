@@ -9,6 +9,7 @@
 
 #include "ident/data/flight_log.h"
 #include "ident/estimators/flight_kernel.h"
+#include "ident/estimators/flight_noise.h"
 
 namespace ident {
 
@@ -51,8 +52,9 @@ struct FlightRecord {
   Signals signals;
   StateLayout layout;
   std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
-  double interval = 0.0;                  ///< median time between rows, s
-  double duration = 0.0;                  ///< of all arcs, s
+  std::array<ColouredNoise, 3> attitude_error{};  ///< to start from; see attitude_drift()
+  double interval = 0.0;                          ///< median time between rows, s
+  double duration = 0.0;                          ///< of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   std::vector<Warning> warnings;
   std::vector<double> p;  ///< the stated constants: states to start from are simulated with them, and what

@@ -1,4 +1,4 @@
-// Noise by differences, states by interpolation.
+// Noise by differences, states by interpolation and averages.
 #include "ident/estimators/flight_record_start.h"
 
 #include <algorithm>
@@ -62,6 +62,25 @@ double attitude_noise(const FlightRecord& record, int axis) {
     }
   }
   return noise_of(size, std::move(changes));
+}
+
+// Means over about as many seconds to either side as make half of that noise at usual accelerations: near the
+// ground, a height off by its noise may be one at which nothing flies.
+std::vector<double> averaged(const std::vector<double>& t, const std::vector<double>& column, double noise) {
+  constexpr double kAcceleration = 5.0, kLongest = 0.05;  // m/s^2, s
+  if (column.empty()) return column;
+  const double reach = std::min(std::sqrt(3 * noise / kAcceleration), kLongest);
+  std::vector<double> out(column.size());
+  for (std::size_t i = 0, begin = 0, end = 0; i < column.size(); ++i) {
+    const auto within = [&](std::size_t k) { return std::abs(t[k] - t[i]) <= reach; };
+    while (!within(begin)) ++begin;
+    while (end < column.size() && (end < i || within(end))) ++end;
+    const std::size_t n = std::min(i - begin, end - 1 - i);  // to either side
+    double sum = 0;
+    for (std::size_t k = i - n; k <= i + n; ++k) sum += column[k];
+    out[i] = sum / static_cast<double>(2 * n + 1);
+  }
+  return out;
 }
 
 // Motor states by simulating the commands; measured speeds replace the simulated ones.
@@ -130,7 +149,8 @@ void set_start(FlightRecord& record, std::span<const double> p) {
     std::array<std::vector<double>, 4> q;
     for (int k = 0; k < 3; ++k) {
       const auto c = static_cast<std::size_t>(k);
-      w[c] = column(kGyro + k), v[c] = column(kVelocity + k), x[c] = column(kPosition + k);
+      w[c] = column(kGyro + k), v[c] = column(kVelocity + k),
+      x[c] = averaged(arc.t, column(kPosition + k), record.sigma[kPosition + c]);
     }
     for (std::size_t k = 0; k < 4; ++k) {
       std::vector<double> c(rows);

@@ -226,6 +226,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     result.fit["process_noise"].push_back(
         {{"angular_acceleration", process_json(air.w_dot)}, {"acceleration", process_json(air.v_dot)}});
   result.fit["axes_of_acceleration"] = fit.noise.axes == GustAxes::world ? "world" : "body";
+  if (record.layout.attitude_error >= 0)
+    result.fit["attitude_error"] = process_json(fit.noise.attitude_error);
   nlohmann::ordered_json levels;
   for (int c = 0; c < kChannels; ++c)
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)

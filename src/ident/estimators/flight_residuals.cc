@@ -163,13 +163,11 @@ Section outside_accelerations(const FlightRecord& record, const FlightFit& fit) 
           "found."};
   const FlightSmoother& smoother = *fit.smoother;
   const AirNoise& air = fit.noise.in_log(0);
-  const auto add = [&](const char* title, const char* unit, const std::array<ColouredNoise, 3>& noise,
-                       const std::array<const char*, 3>& names, auto&& of) {
-    Plot plot{.id = std::string("outside-") + names[0],
-              .title = title,
-              .x_label = "time [s]",
-              .y_label = std::string("acceleration [") + unit + "]",
-              .kind = Plot::Kind::time_series};
+  const auto add = [&](const char* id, const char* title, const char* y_label,
+                       const std::array<ColouredNoise, 3>& noise, auto&& of) {
+    static constexpr std::array names = {"x", "y", "z"};
+    Plot plot{
+        .id = id, .title = title, .x_label = "time [s]", .y_label = y_label, .kind = Plot::Kind::time_series};
     std::array<Series, 3> traces;
     double widest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -192,13 +190,18 @@ Section outside_accelerations(const FlightRecord& record, const FlightFit& fit) 
   };
   using State = FlightState<double>;
   if (record.layout.w_dot >= 0)
-    add("Angular acceleration from outside, body frame", "rad/s^2", air.w_dot, {"x", "y", "z"},
+    add("outside-turn", "Angular acceleration from outside, body frame", "acceleration [rad/s^2]", air.w_dot,
         [](const State& x, std::size_t i) { return x.outside.w_dot_B[static_cast<Eigen::Index>(i)]; });
   if (record.layout.v_dot >= 0)
-    add(fit.noise.axes == GustAxes::world ? "Acceleration from outside, world frame"
+    add("outside-push",
+        fit.noise.axes == GustAxes::world ? "Acceleration from outside, world frame"
                                           : "Acceleration from outside, body frame",
-        "m/s^2", air.v_dot, {"x", "y", "z"},
+        "acceleration [m/s^2]", air.v_dot,
         [](const State& x, std::size_t i) { return x.outside.v_dot[static_cast<Eigen::Index>(i)]; });
+  if (record.layout.attitude_error >= 0)
+    add("attitude-error", "Slow error of the attitude as shown, body frame", "angle [rad]",
+        fit.noise.attitude_error,
+        [](const State& x, std::size_t i) { return x.attitude_error[static_cast<Eigen::Index>(i)]; });
   return section;
 }
 

@@ -3,8 +3,9 @@
 //
 //   cost = sum_chunks rho(r_k(x_k, theta)^2) + sum_links d_k' W_k d_k ,   d_k = end(x_k, theta) - x_(k+1)
 //
-// The state holds accelerations from outside that are constant over a chunk and follow a Gauss-Markov process
-// from one to the next; all else continues without a jump. No such noise makes one long output-error fit,
+// The state holds accelerations from outside, and where it drifts the error of the attitude shown, that are
+// constant over a chunk and follow a Gauss-Markov process from one to the next; all else continues without a
+// jump. No such noise makes one long output-error fit,
 // infinite noise unlinked segments. The states are a block tridiagonal system with a border of shared
 // unknowns; elimination costs O(length).
 #pragma once
@@ -154,7 +155,7 @@ class FlightSmoother {
   const std::vector<FlightState<double>>& states() const { return states_; }
   std::vector<std::vector<double>> residuals();
   /// Variance of the accelerations from outside in chunk k by the error of its input: about the axes of the
-  /// body, then along those of the noise.
+  /// body, then along those of the noise; none for axis -1.
   double input_error(std::size_t k, int axis) const;
   /// Defect of each link at the accepted states, after `residuals()`; empty where there is no link.
   std::vector<Eigen::VectorXd> defects() const;
@@ -193,6 +194,19 @@ class FlightSmoother {
   };
 
   struct Sweep;
+
+  // Three components of the state that follow a Gauss-Markov process from chunk to chunk; at -1 there are
+  // none.
+  struct Process {
+    int at;
+    const std::array<ColouredNoise, 3>* noise;
+    int first_input;  // axis of input_error() of the first one; -1: the input has nothing to do with it
+    double least;     // variance that stands for none
+
+    const ColouredNoise& axis(int i) const { return (*noise)[static_cast<std::size_t>(i)]; }
+    int input_axis(int i) const { return first_input < 0 ? -1 : first_input + i; }
+  };
+  std::array<Process, 3> processes(std::size_t k) const;
 
   ChunkTask task(std::size_t k, const Eigen::VectorXd& u, const std::vector<double>& p,
                  const std::vector<std::vector<Seed>>& seeds) const;

@@ -18,14 +18,12 @@ double length(const FlightRecord& record, const ChunkPlace& place) {
   return arc.t[place.end] - arc.t[place.begin];
 }
 
-// Far below what one chunk tells of an acceleration from outside: no noise means none.
-constexpr double kLeastOutside = 1e-10;
+// Far below what one chunk tells of an acceleration from outside, or of an angle: no noise means none.
+constexpr double kLeastOutside = 1e-10, kLeastAngle = 1e-14;
 
 // The motors' noise reaches zero. At the floor of the other states single precision would then speak through
 // their links, and the diagnosis name what is rounding.
 constexpr double kMotorFloor = 100.0;
-
-double variance(const ColouredNoise& noise) { return noise.sigma * noise.sigma + kLeastOutside; }
 
 // What is known beforehand of what an arc does not measure: 10 rad/s, 1 rad, 20 m/s, 100 m; of a rotor, more
 // than four of which leave the motion alone as they change against each other, 30 rad/s and 3000 rad/s^2.
@@ -66,17 +64,21 @@ const AirNoise& FlightSmoother::air_of(std::size_t k) const {
   return noise_.in_log(record_->arcs[static_cast<std::size_t>(places_[k].arc)].log);
 }
 
+// Parts of the state of chunk k that follow a Gauss-Markov process from one chunk to the next.
+std::array<FlightSmoother::Process, 3> FlightSmoother::processes(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  const AirNoise& air = air_of(k);
+  return {Process{layout.w_dot, &air.w_dot, 0, kLeastOutside},
+          Process{layout.v_dot, &air.v_dot, 3, kLeastOutside},
+          Process{layout.attitude_error, &noise_.attitude_error, -1, kLeastAngle}};
+}
+
 // Share of each state component that is left at the start of the next chunk.
 VectorXd FlightSmoother::carried(std::size_t k) const {
-  const StateLayout& layout = record_->layout;
-  VectorXd share = VectorXd::Ones(layout.size);
+  VectorXd share = VectorXd::Ones(record_->layout.size);
   const double h = length(*record_, places_[k]);
-  const AirNoise& air = air_of(k);
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    if (layout.w_dot >= 0) share[layout.w_dot + i] = air.w_dot[axis].carried(h);
-    if (layout.v_dot >= 0) share[layout.v_dot + i] = air.v_dot[axis].carried(h);
-  }
+  for (const Process& process : processes(k))
+    for (int i = 0; i < 3 && process.at >= 0; ++i) share[process.at + i] = process.axis(i).carried(h);
   return share;
 }
 
@@ -90,7 +92,7 @@ void FlightSmoother::set_input_errors() {
 }
 
 double FlightSmoother::input_error(std::size_t k, int axis) const {
-  return input_errors_.empty() ? 0.0 : input_errors_[k][axis];
+  return input_errors_.empty() || axis < 0 ? 0.0 : input_errors_[k][axis];
 }
 
 // What the error of the input adds to the variance of a link: it is another one in every chunk.
@@ -100,23 +102,22 @@ double FlightSmoother::new_error(std::size_t k, int axis, double carried) const 
 
 // Information on the state at the start of an arc, before any measurement.
 VectorXd FlightSmoother::start_information(std::size_t k) const {
-  const StateLayout& layout = record_->layout;
-  const AirNoise& air = air_of(k);
   VectorXd info = unseen_[static_cast<std::size_t>(places_[k].arc)];
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    if (layout.w_dot >= 0) info[layout.w_dot + i] = 1 / (variance(air.w_dot[axis]) + input_error(k, i));
-    if (layout.v_dot >= 0) info[layout.v_dot + i] = 1 / (variance(air.v_dot[axis]) + input_error(k, 3 + i));
-  }
+  for (const Process& process : processes(k))
+    for (int i = 0; i < 3 && process.at >= 0; ++i) {
+      const double sigma = process.axis(i).sigma;
+      info[process.at + i] = 1 / (sigma * sigma + process.least + input_error(k, process.input_axis(i)));
+    }
   return info;
 }
 
-// The accelerations from outside within the local state of chunk k.
+// What follows a process, within the local state of chunk k.
 VectorXd FlightSmoother::outside(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   VectorXd x = VectorXd::Zero(layout.size);
   if (layout.w_dot >= 0) x.segment<3>(layout.w_dot) = trial_[k].outside.w_dot_B;
   if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot;
+  if (layout.attitude_error >= 0) x.segment<3>(layout.attitude_error) = trial_[k].attitude_error;
   return x;
 }
 
@@ -156,21 +157,20 @@ chunk::RowMatrix FlightSmoother::link_slope(std::size_t k) const {
   return E;
 }
 
-// What such a slope owes to the noise: the share of the accelerations from outside that is carried over. They
-// are constant over a chunk and depend on nothing else.
+// What such a slope owes to the noise: the share that is carried over of what follows a process. That is
+// constant over a chunk and depends on nothing else.
 void FlightSmoother::set_shares(std::size_t k, chunk::RowMatrix& E) const {
-  const StateLayout& layout = record_->layout;
   const VectorXd share = carried(k);
-  for (const int at : {layout.w_dot, layout.v_dot})
-    for (int i = at; at >= 0 && i < at + 3; ++i) E(i, i) = share[i];
+  for (const Process& process : processes(k))
+    for (int i = process.at; process.at >= 0 && i < process.at + 3; ++i) E(i, i) = share[i];
   // The process is what is left of the acceleration beyond the profile.
   if (!profiles_.empty())
-    E.middleCols(padded(layout.size) + theta_->size(), shared() - theta_->size()) =
+    E.middleCols(padded(record_->layout.size) + theta_->size(), shared() - theta_->size()) =
         profile(k + 1) - share.asDiagonal() * profile(k);
 }
 
-// Inverse variance of the defect: what accelerations from outside win anew over a chunk, q h for rotor
-// speeds, and a floor far below what the measurements of one chunk can tell, so that all else continues.
+// Inverse variance of the defect: what a process wins anew over a chunk, q h for rotor speeds, and a floor
+// far below what the measurements of one chunk can tell, so that all else continues.
 VectorXd FlightSmoother::link_weight(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const double h = length(*record_, places_[k]),
@@ -191,15 +191,13 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   for (const int at : {layout.v, layout.x})
     for (int i = at; at >= 0 && i < at + 3; ++i)
       if (unseen[i] > 0) W[i] = unseen[i];
-  const auto wanders = [&](int at, const std::array<ColouredNoise, 3>& noise, int first) {
-    for (int i = 0; i < 3 && at >= 0; ++i) {
-      const ColouredNoise& axis = noise[static_cast<std::size_t>(i)];
+  for (const Process& process : processes(k))
+    for (int i = 0; i < 3 && process.at >= 0; ++i) {
+      const ColouredNoise& axis = process.axis(i);
       const double share = axis.carried(h);
-      W[at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + kLeastOutside +
-                         new_error(k, first + i, share));
+      W[process.at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + process.least +
+                                 new_error(k, process.input_axis(i), share));
     }
-  };
-  wanders(layout.w_dot, air_of(k).w_dot, 0), wanders(layout.v_dot, air_of(k).v_dot, 3);
   // Not omega_m as it stands: with its square for a weight, faster motors would make their noise cheap.
   const double rate = record_->motor_rate;
   // Rotor speeds that nobody measured are known up to a scale, that of km. The floor goes with it: else less

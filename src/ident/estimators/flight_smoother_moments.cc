@@ -16,8 +16,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Gusts are not slower than this, s: what stays longer is a cause to be found, not noise.
-constexpr double kSlowest = 4.0;
+// Gusts are not slower than this, s: what stays longer is a cause to be found, not noise. An estimator's
+// attitude is.
+constexpr double kSlowest = 4.0, kSlowestAttitude = 30.0;
+// How much denser an error of the attitude may be than the log alone shows it: what a model misses looks like
+// more of it.
+constexpr double kMostDense = 3.0;
 // The shared unknowns, which noise moves little and which make elimination twice as dear, are held for so
 // many rounds; many of them, the causes of a diagnosis, make it four times as dear.
 constexpr int kHeld = 4;
@@ -79,14 +83,14 @@ struct ProcessMoments {
 
   /// The time by expectation maximisation, hastened by `pace`; sigma by MacKay's fixed point: squared
   /// innovations over the number of them that the data determine. Gives the relative change of sigma.
-  double update(ColouredNoise& noise, Pace& pace) const {
+  double update(ColouredNoise& noise, Pace& pace, double slowest) const {
     if (links < 8 || noise.sigma <= 0) return 0;
     const double h = seconds / links, variance = noise.sigma * noise.sigma;
     const VarianceStep step(square, count - unknown, count);
     const double carried = std::clamp(cross / (0.5 * (now + next)), 0.01, 0.998);
-    const double tau = std::clamp(-h / std::log(carried), 0.3 * h, kSlowest);
+    const double tau = std::clamp(-h / std::log(carried), 0.3 * h, slowest);
     noise.sigma *= std::sqrt(step.ratio);
-    noise.tau = std::clamp(noise.tau * std::exp(pace.step(std::log(tau / noise.tau))), 0.3 * h, kSlowest);
+    noise.tau = std::clamp(noise.tau * std::exp(pace.step(std::log(tau / noise.tau))), 0.3 * h, slowest);
     return variance < kNothing ? 0 : step.change();
   }
 };
@@ -126,6 +130,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
   double change = 0;
   VectorXd du;
   std::vector<std::array<Pace, 6>> paces(noise_.air.size());
+  std::array<Pace, 3> paces_of_attitude;
   for (int round = 0; round < rounds; ++round) {
     const bool many = shared() >= kManyShared;
     const bool again = many ? round == 0 || round == 3 : round % kHeld == 0 || round <= 2;
@@ -138,23 +143,25 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
       std::array<ProcessMoments, 3> turn, push;
     };
     std::vector<LogMoments> logs(noise_.air.size());
+    std::array<ProcessMoments, 3> attitude;
     double motors = 0, motors_determined = 0, motors_floor = 0, links = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
       const FlightArc& arc = record_->arcs[static_cast<std::size_t>(places_[k].arc)];
       const double h = arc.t[places_[k].end] - arc.t[places_[k].begin];
       const VectorXd now = outside(k) + dx[k], next = outside(k + 1) + dx[k + 1];
-      const AirNoise& air = air_of(k);
-      const auto add = [&](std::array<ProcessMoments, 3>& sum, const std::array<ColouredNoise, 3>& noise,
-                           int at, int first) {
-        for (int i = at; at >= 0 && i < at + 3; ++i) {
-          const auto axis = static_cast<std::size_t>(i - at);
-          const double error = new_error(k, first + i - at, noise[axis].carried(h));
-          sum[axis].add(noise[axis], error, now[i], next[i], P[k](i, i), P[k + 1](i, i), cross[k](i, i), h);
+      const auto add = [&](std::array<ProcessMoments, 3>& sum, const Process& process) {
+        for (int axis = 0; axis < 3 && process.at >= 0; ++axis) {
+          const ColouredNoise& noise = process.axis(axis);
+          const double error = new_error(k, process.input_axis(axis), noise.carried(h));
+          const int i = process.at + axis;
+          sum[static_cast<std::size_t>(axis)].add(noise, error, now[i], next[i], P[k](i, i), P[k + 1](i, i),
+                                                  cross[k](i, i), h);
         }
       };
       LogMoments& log = logs[static_cast<std::size_t>(arc.log)];
-      add(log.turn, air.w_dot, layout.w_dot, 0), add(log.push, air.v_dot, layout.v_dot, 3);
+      const auto [turn, push, shown] = processes(k);
+      add(log.turn, turn), add(log.push, push), add(attitude, shown);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
       const auto E = chunk::E(results_[k], n);
       const VectorXd d = defect(k), W = link_weight(k);
@@ -169,8 +176,15 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
     change = 0;
     for (std::size_t log = 0; log < logs.size(); ++log)
       for (std::size_t i = 0; i < 3; ++i)
-        change = std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i], paces[log][i]),
-                           logs[log].push[i].update(noise_.air[log].v_dot[i], paces[log][3 + i])});
+        change =
+            std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i], paces[log][i], kSlowest),
+                      logs[log].push[i].update(noise_.air[log].v_dot[i], paces[log][3 + i], kSlowest)});
+    for (std::size_t i = 0; i < 3; ++i) {
+      ColouredNoise& error = noise_.attitude_error[i];
+      change = std::max(change, attitude[i].update(error, paces_of_attitude[i], kSlowestAttitude));
+      const ColouredNoise& seen = record_->attitude_error[i];
+      error.sigma = std::min(error.sigma, seen.sigma * std::sqrt(kMostDense * error.tau / seen.tau));
+    }
     if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
       const VarianceStep step(motors, motors_determined, links);
       // It is the variance of the links, of which the floor is a part, that is to shrink by that ratio.

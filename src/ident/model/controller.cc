@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kLeastCommand = 0.03;
 
-Vec3<double> rotation_vector(const Vec4<double>& q) {
-  const Vec3<double> v(q[1], q[2], q[3]);
-  const double s = v.norm(), c = std::abs(q[0]), sign = q[0] < 0 ? -1.0 : 1.0;
-  return s < 1e-9 ? Vec3<double>(2.0 * sign * v) : Vec3<double>(sign * 2.0 * std::atan2(s, c) / s * v);
-}
-
 Vec4<double> about_z(double psi) { return {std::cos(psi / 2), 0, 0, std::sin(psi / 2)}; }
 
 /// Shortest rotation from up (0,0,-1) to a direction.
@@ -76,7 +70,7 @@ Controller::Reference Controller::reference(const Setpoint& to) const {
                               quaternion_product(about_z(psi), trim_.q_WB));
   };
   const Vec4<double> now = attitude(to.a_W, to.psi), soon = attitude(to.a_soon_W, to.psi_soon);
-  return {now, rotation_vector(quaternion_product(conjugate(now), soon)) / kAhead,
+  return {now, rotation_vector_from_quaternion(quaternion_product(conjugate(now), soon)) / kAhead,
           (to.a_W - g_W).norm() / g_};
 }
 
@@ -90,7 +84,7 @@ Eigen::VectorXd Controller::deviation(const FlightState<double>& x, const Setpoi
   Eigen::VectorXd z(model_.A.rows());
   z.segment<3>(0) = R_WH.transpose() * (far + trail_W_);
   z.segment<3>(3) = R_WH.transpose() * limited(x.body.v_W - to.v_W, 3.0);
-  z.segment<3>(6) = rotation_vector(off);
+  z.segment<3>(6) = rotation_vector_from_quaternion(off);
   z.segment<3>(9) = x.body.w_B - rotation(off).transpose() * reference.w_B;
   const double speed = std::sqrt(reference.level);
   Eigen::VectorXd expected(rotors);

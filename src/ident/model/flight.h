@@ -29,12 +29,14 @@ struct FlightInputs {
   bool commanded() const { return !delta.empty(); }
 };
 
-/// Whole state: body and motors.
+/// Whole state: body and motors; and by how much the attitude that a sensor shows is turned from the true
+/// one, about the axes of the body, rad.
 template <class S>
 struct FlightState {
   BodyState<S> body;
   std::array<MotorState<S>, kMaxRotors> motors{};
   Disturbance<S> outside;
+  Vec3<double> attitude_error{0.0, 0.0, 0.0};
 };
 
 /// Half way through a step: the motors, and the body's rate as the step took it.

@@ -1,0 +1,116 @@
+// An attitude that drifts: seen in the log alone, estimated with the flight, and no gap.
+#include "ident/estimators/flight_attitude_drift.h"
+
+#include <gtest/gtest.h>
+
+#include "ident/effects/catalogue.h"
+#include "ident/estimators/flight_fit.h"
+#include "ident/estimators/flight_refine.h"
+#include "support/diagnosed.h"
+#include "support/drifting_attitude.h"
+
+namespace ident {
+namespace {
+
+constexpr ColouredNoise kError{0.008, 6.0};
+
+SimulatedFlight flown(const Vehicle& vehicle, std::uint64_t seed, double seconds = 60.0) {
+  SimulationOptions options;
+  options.duration = seconds, options.rate = 100.0, options.seed = seed, options.turbulence = 0.5;
+  return simulate_flight(vehicle, options);
+}
+
+FlightRecord record_of(const Vehicle& vehicle, const FlightLog& log) {
+  const std::vector<FlightLog> logs{log};
+  return make_flight_record(vehicle, parameter_vector(vehicle), logs);
+}
+
+bool drifts(const FlightRecord& record) { return record.layout.attitude_error >= 0; }
+
+TEST(AttitudeDrift, IsSeenInTheLogAndToldOnce) {
+  const Vehicle vehicle = testing::published_vehicle();
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    FlightLog log = flown(vehicle, seed).log;
+    EXPECT_FALSE(drifts(record_of(vehicle, log))) << seed;
+    testing::drift_attitude(log, kError, seed);
+    const FlightRecord record = record_of(vehicle, log);
+    ASSERT_TRUE(drifts(record)) << seed;
+    const auto told = std::ranges::count(record.warnings, "attitude_drifts", &Warning::code);
+    EXPECT_EQ(told, 1) << seed;
+    for (const ColouredNoise& axis : record.attitude_error) {  // its density is that, more or less
+      const double density = axis.sigma * axis.sigma / axis.tau;
+      EXPECT_NEAR(std::log(density / (kError.sigma * kError.sigma / kError.tau)), 0.0, 0.8) << seed;
+    }
+  }
+}
+
+// How a sensor is mounted, its scale, bias or delay is none of it, nor is flight with little of anything.
+TEST(AttitudeDrift, IsNotWhatElsePartsAttitudeFromRates) {
+  const Vehicle plain = testing::published_vehicle();
+  Vehicle turned = plain;
+  turned.parameters["imu_misalignment.x"].value = 0.05, turned.parameters["imu_misalignment.z"].value = -0.04;
+  EXPECT_FALSE(drifts(record_of(plain, flown(turned, 1).log)));
+  FlightLog late = flown(plain, 1).log;
+  for (auto& column : late.q_WB) std::rotate(column.begin(), column.end() - 3, column.end());
+  EXPECT_FALSE(drifts(record_of(plain, late)));
+  FlightLog biased = flown(plain, 1).log;
+  for (double& p : biased.w_B[0]) p += 0.03;
+  EXPECT_FALSE(drifts(record_of(plain, biased)));
+  FlightLog rare = flown(plain, 1).log;
+  for (std::size_t i = 0; i < rare.rows(); ++i)
+    for (auto& column : rare.q_WB)
+      if (i % 10 != 0) column[i] = kNaN;
+  EXPECT_FALSE(drifts(record_of(plain, rare)));
+  FlightLog short_one = flown(plain, 1, 3.0).log;
+  testing::drift_attitude(short_one, kError, 1);
+  EXPECT_FALSE(drifts(record_of(plain, short_one)));  // too short to tell
+}
+
+// Noise rounds find the level, and the states the error itself.
+TEST(AttitudeDrift, IsEstimatedWithTheFlight) {
+  const Vehicle vehicle = testing::published_vehicle();
+  FlightLog log = flown(vehicle, 3).log;
+  const FlightLog true_log = log;
+  testing::drift_attitude(log, kError, 3);
+  const FlightRecord record = record_of(vehicle, log);
+  ASSERT_TRUE(drifts(record));
+  const Theta theta(parameter_vector(vehicle), {}, 1, true);
+  const FlightFit fit = fit_flight(record, theta);
+  double shown = 0, left = 0;
+  for (std::size_t k = 0; k < fit.smoother->chunks().size(); ++k) {
+    const FlightArc& arc = record.arcs[0];
+    const std::size_t row = fit.smoother->chunks()[k].begin;
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(log.t, arc.t[row]) - log.t.begin());
+    const auto attitude = [&](const FlightLog& of) {
+      return Vec4<double>(of.q_WB[0][at], of.q_WB[1][at], of.q_WB[2][at], of.q_WB[3][at]);
+    };
+    const Vec3<double> error =
+        rotation_vector_from_quaternion(quaternion_product(conjugate(attitude(true_log)), attitude(log)));
+    shown += error.head<2>().squaredNorm();
+    left += (error - fit.smoother->states()[k].attitude_error).head<2>().squaredNorm();
+  }
+  EXPECT_LT(left, 0.25 * shown);  // roll and pitch: gravity tells
+  for (const ColouredNoise& axis : fit.noise.attitude_error) {
+    const double density = axis.sigma * axis.sigma / axis.tau;
+    EXPECT_NEAR(std::log(density / (kError.sigma * kError.sigma / kError.tau)), 0.0, 0.7);
+  }
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(fit.noise.sigma[static_cast<std::size_t>(kAttitude + k)], noise_level("typical").attitude,
+                0.2 * noise_level("typical").attitude);
+}
+
+TEST(AttitudeDrift, IsNoGapAndHidesNone) {
+  const Vehicle model = testing::published_vehicle();
+  Vehicle truth = model;
+  FlightLog log = flown(truth, 5).log;
+  testing::drift_attitude(log, kError, 5);
+  EXPECT_EQ(testing::verdict_of(model, log)["status"], "none");
+  truth.parameters["imu_misalignment.y"].value = 0.03;
+  FlightLog turned = flown(truth, 6).log;
+  testing::drift_attitude(turned, kError, 6);
+  const auto verdict = testing::verdict_of(model, turned);
+  EXPECT_EQ(verdict["effects"], nlohmann::ordered_json({"imu_misalignment"})) << verdict;
+}
+
+}  // namespace
+}  // namespace ident
