@@ -40,7 +40,8 @@ std::vector<Part> parts_of(const FlightRecord& record) {
     for (const int first : states)
       if (first >= 0) part.states[first + axis] = 1;
   };
-  for (int k = 0; k < 3; ++k) add(k, k, {kGyro, kAttitude}, {layout.w, layout.attitude, layout.w_dot, layout.attitude_error});
+  for (int k = 0; k < 3; ++k)
+    add(k, k, {kGyro, kAttitude}, {layout.w, layout.attitude, layout.w_dot, layout.attitude_error});
   for (int k = 0; k < 3; ++k)
     add(k + 3, k, {kForce, kVelocity, kPosition}, {layout.v, layout.x, layout.v_dot});
   if (layout.motors < 0) return parts;
