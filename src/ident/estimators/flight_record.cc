@@ -12,6 +12,7 @@
 #include "ident/estimators/flight_pieces.h"
 #include "ident/estimators/flight_record_start.h"
 #include "ident/estimators/flight_speed_modes.h"
+#include "ident/estimators/flight_velocity_bias.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -191,6 +192,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
       !record.signals.velocity && !record.signals.position)
     throw DataError(
         "nothing that moves was logged: rates, attitude or specific force are needed, and a path helps");
+  take_out_velocity_bias(record);
   set_noise(record);
   set_start(record, p);
   record.attitude_error = attitude_drift(record);
