@@ -148,5 +148,27 @@ TEST(WithheldCase, LogsOfSpeedsHideNothingThatTheyCannotShow) {
   EXPECT_TRUE(draw_case(13, 1, order).instruments.rotor_speeds);
 }
 
+TEST(WithheldCase, AnEstimatorIsOffSlowlyAndFliesTheSame) {
+  CaseOrder order{"none", {}};
+  const Case white = draw_case(14, 1, order);
+  order.estimator = true;
+  const Case slow = draw_case(14, 1, order);
+  const auto &a = white.flights[0], &b = slow.flights[0];
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  double square = 0, change = 0;
+  for (std::size_t k = 0; k < a.rows.size(); ++k) {
+    ASSERT_EQ(a.truth[k].motion.p, b.truth[k].motion.p) << k;
+    EXPECT_LT((b.rows[k].shown.v - a.rows[k].shown.v - (b.rows[0].shown.v - a.rows[0].shown.v)).norm(),
+              1e-12);
+    const auto off = [&](std::size_t row) {
+      return Eigen::Vector3d((a.rows[row].shown.q.conjugate() * b.rows[row].shown.q).vec());
+    };
+    square += off(k).squaredNorm();
+    if (k > 0) change += (off(k) - off(k - 1)).squaredNorm();
+  }
+  EXPECT_GT(square, 0);
+  EXPECT_LT(change, 0.02 * square);
+}
+
 }  // namespace
 }  // namespace withheld

@@ -27,6 +27,12 @@ Instruments draw_instruments(const Vehicle&, Random& random) {
   return i;
 }
 
+void make_estimator(Instruments* instruments, Random& random) {
+  instruments->attitude_drift = random.log_uniform(0.001, 0.008);
+  instruments->drift_time = random.log_uniform(3, 15);
+  instruments->velocity_bias = random.log_uniform(0.005, 0.08);
+}
+
 Eigen::Quaterniond small_turn(const Eigen::Vector3d& angle) {
   const double size = angle.norm();
   if (size < 1e-12)

@@ -16,7 +16,13 @@ struct Instruments {
   double speed_share = 0.003;  // of hover speed, white
   double voltage_share = 0.002;
   double gyro_bias = 0.004;  // rad/s, turn-on, standard deviation over logs
+  // Of an estimator: a slow error of the attitude about each axis, rad, that lasts so many seconds; a
+  // constant one of the velocities, m/s, standard deviation over logs.
+  double attitude_drift = 0, drift_time = 6, velocity_bias = 0;
 };
+
+// An estimator shows attitude and velocity.
+void make_estimator(Instruments* instruments, Random& random);
 
 Instruments draw_instruments(const Vehicle& vehicle, Random& random);
 

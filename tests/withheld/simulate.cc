@@ -151,6 +151,29 @@ Shown with_noise(Shown s, const Instruments& i, const Vector3d& gyro_bias, Rando
   return s;
 }
 
+// What an estimator's attitude and velocity are off by, and lastingly so.
+class SlowError {
+ public:
+  SlowError(const Instruments& i, Random random)
+      : i_(i),
+        random_(random),
+        turn_(random_.normal3(i.attitude_drift)),
+        v_(random_.normal3(i.velocity_bias)) {}
+
+  Shown added_to(Shown s, double seconds_since_last) {
+    const double left = std::exp(-seconds_since_last / i_.drift_time);
+    turn_ = left * turn_ + random_.normal3(i_.attitude_drift * std::sqrt(1 - left * left));
+    s.q = s.q * small_turn(turn_);
+    s.v += v_;
+    return s;
+  }
+
+ private:
+  const Instruments& i_;
+  Random random_;
+  Vector3d turn_, v_;
+};
+
 // Whole microseconds; what rounding took away is given back later, or small corrections would never be flown.
 Four quantised(const Vehicle& v, const Four& delta, Four* carried) {
   const double span = v.pulse_max - v.pulse_min;
@@ -179,6 +202,7 @@ Flight fly(const Vehicle& v, const Effects& e, const Instruments& instruments, c
   Random random(seed, World::stream(index, 4));
   Controller controller(v, settings.delay_margin);
   const Vector3d gyro_bias = random.normal3(instruments.gyro_bias);
+  SlowError slow(instruments, Random(seed, World::stream(index, 5)));
 
   Flight flight;
   flight.manoeuvres = plan.manoeuvres();
@@ -209,7 +233,8 @@ Flight fly(const Vehicle& v, const Effects& e, const Instruments& instruments, c
     if (t >= 0) {
       flight.truth.push_back({t, motion, late, acceleration, spin, world.air(t), volts});
       const Four noise(random.normal(), random.normal(), random.normal(), random.normal());
-      flight.rows.push_back({t, delta, Omega + instruments.speed_share * v.hover_speed() * noise, shown,
+      flight.rows.push_back({t, delta, Omega + instruments.speed_share * v.hover_speed() * noise,
+                             slow.added_to(shown, period),
                              volts * (1 + instruments.voltage_share * random.normal())});
       flight.commands.push(t, delta);
       judge(v, flight.truth.back(), reference, flight);

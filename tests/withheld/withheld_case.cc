@@ -53,6 +53,8 @@ Case draw_scene(std::uint64_t seed, const CaseOrder& order) {
   for (const std::string& name : order.members) c.withheld.push_back({draw_member(name, c.vehicle, random)});
   c.instruments = draw_instruments(c.vehicle, random);
   if (!order.commands) c.instruments.rotor_speeds = true;
+  Random of_estimator(seed, 1000);
+  if (order.estimator) make_estimator(&c.instruments, of_estimator);
   for (int log = 0; log < 2; ++log) c.settings[static_cast<std::size_t>(log)] = draw_settings(c, log, random);
   c.known = draw_known_before(c.vehicle, random);
   c.effects.gust_grip = random.uniform(0.15, 0.4);

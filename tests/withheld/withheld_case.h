@@ -15,6 +15,7 @@ struct CaseOrder {
   std::vector<std::string> members;  // what is withheld; empty for none
   double size = 0;                   // wanted, in units of the detection limit; 0: drawn
   bool commands = true;              // are logged; without, rotor speeds always are
+  bool estimator = false;            // shows attitude and velocity
 };
 
 struct Withheld {

@@ -111,6 +111,9 @@ nlohmann::json vehicle_json(const Case& c) {
                           {"attitude", i.attitude},
                           {"position", i.position},
                           {"velocity", i.velocity},
+                          {"attitude_drift", i.attitude_drift},
+                          {"drift_time", i.drift_time},
+                          {"velocity_bias", i.velocity_bias},
                           {"speed_share", i.speed_share}}}};
   for (const std::string& name : base_parameter_names()) {
     all["base"][name] = {{"truth", base_parameter(c.vehicle, name)},
