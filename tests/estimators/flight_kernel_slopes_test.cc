@@ -1,6 +1,8 @@
 // Slopes of a chunk's start and of all constants, with every effect, against central differences.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "support/open_loop_flight.h"
 
 namespace ident {
@@ -14,7 +16,8 @@ FlightState<double> moved(FlightState<double> x, const StateLayout& layout, int 
   if (within(layout.x, 3)) x.body.x_W[i - layout.x] += d;
   if (within(layout.w_dot, 3)) x.outside.w_dot_B[i - layout.w_dot] += d;
   if (within(layout.v_dot, 3)) x.outside.v_dot[i - layout.v_dot] += d;
-  if (within(layout.attitude_error, 3)) x.attitude_error[i - layout.attitude_error] += d;
+  for (std::size_t g = 0; g < kShownGroups; ++g)
+    if (within(layout.shown_error[g], 3)) x.shown_error[g][i - layout.shown_error[g]] += d;
   if (within(layout.motors, 2 * layout.rotors)) {
     const int n = i - layout.motors;
     auto& motor = x.motors[static_cast<std::size_t>(n % layout.rotors)];
@@ -39,7 +42,8 @@ Eigen::VectorXd apart(const FlightState<double>& a, const FlightState<double>& b
   put(layout.x, b.body.x_W - a.body.x_W);
   put(layout.w_dot, b.outside.w_dot_B - a.outside.w_dot_B);
   put(layout.v_dot, b.outside.v_dot - a.outside.v_dot);
-  put(layout.attitude_error, b.attitude_error - a.attitude_error);
+  for (std::size_t g = 0; g < kShownGroups; ++g)
+    put(layout.shown_error[g], b.shown_error[g] - a.shown_error[g]);
   const Vec4<double>& q = a.body.q_WB;
   put(layout.attitude,
       2 * quaternion_product(Vec4<double>(q[0], -q[1], -q[2], -q[3]), b.body.q_WB).tail<3>());
@@ -96,13 +100,15 @@ TEST(FlightKernel, SlopesOfTheStartHoldWithAPushThatTurnsWithTheBody) {
   expect_true_slopes(task);
 }
 
-TEST(FlightKernel, SlopesOfTheStartHoldWithAnAttitudeThatIsShownWrong) {
+TEST(FlightKernel, SlopesOfTheStartHoldWithErrorsOfWhatIsShown) {
   Setting s;
-  s.record.layout.attitude_error = s.record.layout.size;
-  s.record.layout.size += 3;
+  for (int& at : s.record.layout.shown_error)
+    at = std::exchange(s.record.layout.size, s.record.layout.size + 3);
   std::vector<double> constants;
   ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.02), constants);
-  task.x0.attitude_error = {0.05, -0.1, 0.08};
+  task.x0.shown_error[kShownAttitude] = {0.05, -0.1, 0.08};
+  task.x0.shown_error[kShownVelocity] = {-0.2, 0.1, 0.3};
+  task.x0.shown_error[kShownPosition] = {0.1, 0.4, -0.2};
   for (const double shift : {0.0, 0.0153}) {
     task.shift = shift;
     expect_true_slopes(task);

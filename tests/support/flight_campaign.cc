@@ -9,8 +9,8 @@
 #include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/estimators/flight_refine.h"
-#include "support/drifting_attitude.h"
 #include "support/random_vehicle.h"
+#include "support/slow_errors.h"
 
 namespace ident::flight_campaign {
 namespace {
@@ -86,13 +86,14 @@ void fly(Case& c, double seconds, bool commands) {
     c.flights.back().log.file = "log" + std::to_string(i + 1);
     if (!commands) c.flights.back().log.delta.clear();
     if (c.drift.sigma > 0) testing::drift_attitude(c.flights.back().log, c.drift, options.seed);
+    if (c.filter) testing::estimate(c.flights.back().log, c.truth.g);
   }
 }
 
 NoiseModel true_noise(const Case& c, const FlightRecord& record) {
   NoiseModel noise;
   noise.axes = GustAxes::body;
-  noise.attitude_error.fill(c.drift);
+  noise.slow[kShownAttitude].fill(c.drift);
   noise.sigma = record.sigma;
   const SensorNoise sensor = noise_level("typical");
   for (std::size_t k = 0; k < 3; ++k) {
@@ -140,7 +141,7 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   c.stated = measured(c.truth, random);
   c.rotor_speeds = random.below(4) != 0 || !options.commands;
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
-  c.drift.sigma = options.drift;
+  c.drift.sigma = options.drift, c.filter = options.filter;
   c.scenarios = {"mixed", second[static_cast<std::size_t>(random.below(4))]};
   const double share = random.log_uniform(0.07, 0.70);
   fly(c, options.seconds, options.commands);

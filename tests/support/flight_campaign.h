@@ -20,6 +20,7 @@ struct Case {
   bool rotor_speeds = true;
   double gusts = 0.0;             ///< standard deviation, m/s
   ColouredNoise drift{0.0, 6.0};  ///< of the attitude shown, rad
+  bool filter = false;
   std::vector<SimulatedFlight> flights;
   std::vector<std::string> scenarios;
   /// Standard deviation of what the air does over that of what the rotors do, both without gravity:
@@ -34,6 +35,7 @@ struct CaseOptions {
   bool turbulence = false;
   bool commands = true;  ///< without, measured rotor speeds are the input
   double drift = 0.0;    ///< standard deviation of a slow error of the attitude shown, rad
+  bool filter = false;   ///< attitude, velocity and position as a complementary filter shows them
 };
 
 /// Layouts 4sp, plus and x; a quarter without rotor speeds; each constant but the mass (0.2 %) known to 5 to

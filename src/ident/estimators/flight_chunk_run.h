@@ -138,8 +138,10 @@ class ChunkRun {
         if (sampled(i, kForce + k)) sink(i, kForce + k, S(imu.f_B[k] - y(i, kForce + k)));
     }
     for (int k = 0; k < 3; ++k) {
-      if (sampled(i, kVelocity + k)) sink(i, kVelocity + k, S(x.body.v_W[k] - y(i, kVelocity + k)));
-      if (sampled(i, kPosition + k)) sink(i, kPosition + k, S(x.body.x_W[k] - y(i, kPosition + k)));
+      const double v = y(i, kVelocity + k) - task_.x0.shown_error[kShownVelocity][k],
+                   at = y(i, kPosition + k) - task_.x0.shown_error[kShownPosition][k];
+      if (v == v) sink(i, kVelocity + k, S(x.body.v_W[k] - v));
+      if (at == at) sink(i, kPosition + k, S(x.body.x_W[k] - at));
     }
     if (task_.layout.motors < 0) return;
     for (int n = 0; n < task_.layout.rotors; ++n)
@@ -166,7 +168,7 @@ class ChunkRun {
         S turn = sum(sum(sum(S((twice * m[0]) * q[own]), -twice * m[own], q[0]), -twice * m[next], q[last]),
                      twice * m[last], q[next]);
         if (delayed_) turn = turn - delay_beyond_ * w[k];
-        sink(row, kAttitude + k, S(turn + task_.x0.attitude_error[k]));
+        sink(row, kAttitude + k, S(turn + task_.x0.shown_error[kShownAttitude][k]));
       }
     }
   }

@@ -4,6 +4,7 @@
 
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_input_error.h"
+#include "ident/estimators/flight_slow_errors.h"
 
 namespace ident {
 namespace {
@@ -31,6 +32,11 @@ double rms_rate_of(const FlightRecord& record, int channel) {
   return n > 0 ? std::sqrt(sum / n) : 0.0;
 }
 
+// White noise that a channel has at least.
+double least_noise(const FlightRecord& record, std::size_t channel) {
+  return is_slowly_off(record, static_cast<int>(channel)) ? record.sigma[channel] : 1e-10;
+}
+
 }  // namespace
 
 NoiseModel initial_noise(const FlightRecord& record) {
@@ -47,7 +53,7 @@ NoiseModel initial_noise(const FlightRecord& record) {
   air.w_dot.fill({0.2 * w, 0.1});
   air.v_dot.fill({0.1 * v, 0.5});
   noise.air.assign(static_cast<std::size_t>(record.logs), air);
-  noise.attitude_error = record.attitude_error;
+  noise.slow = record.slow;
   noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
   return noise;
 }
@@ -61,8 +67,9 @@ double update_noise(FlightSmoother& smoother, int rounds) {
     const double free = m.count[c] - m.leverage[c];
     if (m.count[c] < 8 || free < 0.02 * m.count[c]) continue;
     const double factor = std::clamp(m.square[c] / free, 0.05, 20.0);
-    noise.sigma[c] = std::max(noise.sigma[c] * std::sqrt(factor), 1e-10);
-    white = std::max(white, std::abs(std::sqrt(factor) - 1));
+    const double before = noise.sigma[c];
+    noise.sigma[c] = std::max(before * std::sqrt(factor), least_noise(smoother.record(), c));
+    white = std::max(white, std::abs(noise.sigma[c] / before - 1));
   }
   smoother.set_noise(noise);
   return std::max(0.3 * change, white);

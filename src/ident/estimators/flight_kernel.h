@@ -30,11 +30,11 @@ constexpr int kChannels = kRotorChannel + kMaxRotors;
 
 /// Which parts of the state are free, and where they stand in the local vector; -1: not part of the problem.
 struct StateLayout {
-  int rotors = 0;                            ///< of the vehicle
-  int w = 0, attitude = -1, v = -1, x = -1;  ///< three components each
-  int motors = -1;                           ///< Omega of all rotors, then their rates
-  int w_dot = -1, v_dot = -1;                ///< accelerations from outside, three components each
-  int attitude_error = -1;                   ///< of the attitude shown, three components
+  int rotors = 0;                                ///< of the vehicle
+  int w = 0, attitude = -1, v = -1, x = -1;      ///< three components each
+  int motors = -1;                               ///< Omega of all rotors, then their rates
+  int w_dot = -1, v_dot = -1;                    ///< accelerations from outside, three components each
+  int shown_error[kShownGroups] = {-1, -1, -1};  ///< of what is shown, three components each
   int size = 3;
 };
 

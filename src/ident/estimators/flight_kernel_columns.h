@@ -11,7 +11,7 @@ namespace ident {
 /// pack.
 template <class Isa>
 struct KernelColumn {
-  enum class Kind { dual, position, velocity, push, bias, shown };
+  enum class Kind { dual, position, velocity, push, bias, shown_attitude, shown_velocity, shown_position };
   int external = -1, axis = 0;
   Kind kind = Kind::dual;
   double derivative = 1.0;
@@ -69,17 +69,19 @@ struct KernelColumns {
       case Kind::push:
         return layout.v_dot;
       default:
-        return layout.attitude_error;
+        return layout.shown_error[static_cast<int>(kind) - static_cast<int>(Kind::shown_attitude)];
     }
   }
 
   // Where a chunk starts matters to nothing but the ground; how fast, to drag and what the flow touches; a
-  // push in the world reaches the accelerometer as it is unless that is turned. What the attitude shows adds
-  // to the attitude.
+  // push in the world reaches the accelerometer as it is unless that is turned. An error of what is
+  // shown adds to that.
   static Kind kind_of(const ChunkTask& task, unsigned touches, int i) {
     const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
     const StateLayout& layout = task.layout;
-    if (within(layout.attitude_error)) return Kind::shown;
+    for (int group = 0; group < kShownGroups; ++group)
+      if (within(layout.shown_error[group]))
+        return static_cast<Kind>(static_cast<int>(Kind::shown_attitude) + group);
     if ((touches & kTouchHeight) != 0) return Kind::dual;
     if (within(layout.x)) return Kind::position;
     if ((touches & kTouchFlow) != 0) return Kind::dual;

@@ -140,7 +140,7 @@ class ChunkKernel {
   }
 
   // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world
-  // frame, a bias that adds to the rates as shown, and an error of the attitude as shown. `residual`: of this
+  // frame, a bias that adds to the rates as shown, and an error of what is shown. `residual`: of this
   // sample, scaled like its row.
   template <class S>
   void analytic(Row& row, double t, const Vec4<S>& q, double scale, double residual) {
@@ -161,13 +161,14 @@ class ChunkKernel {
         for (int k = 0; k < 3; ++k) put(Kind::push, k, turned(q, k, axis));
         break;
       case kAttitude:
-        put(Kind::shown, axis, 1.0);
+        put(Kind::shown_attitude, axis, 1.0);
         break;
       case kVelocity:
-        put(Kind::velocity, axis, 1.0), put(Kind::push, axis, t);
+        put(Kind::velocity, axis, 1.0), put(Kind::push, axis, t), put(Kind::shown_velocity, axis, 1.0);
         break;
       case kPosition:
         put(Kind::position, axis, 1.0), put(Kind::velocity, axis, t), put(Kind::push, axis, 0.5 * t * t);
+        put(Kind::shown_position, axis, 1.0);
         break;
       default:
         break;
@@ -196,7 +197,8 @@ class ChunkKernel {
       if (column.kind == Kind::position) end(layout.x, 1.0);
       if (column.kind == Kind::velocity) end(layout.v, 1.0), end(layout.x, h);
       if (column.kind == Kind::push) end(layout.v_dot, 1.0), end(layout.v, h), end(layout.x, h * h / 2);
-      if (column.kind == Kind::shown) end(layout.attitude_error, 1.0);
+      if (column.kind >= Kind::shown_attitude)
+        end(layout.shown_error[static_cast<int>(column.kind) - static_cast<int>(Kind::shown_attitude)], 1.0);
     }
   }
 
@@ -205,7 +207,7 @@ class ChunkKernel {
   int d_, columns_ = 0, packs_ = 0;
   Place* place_ = nullptr;
   Column* column_ = nullptr;
-  int analytic_[6][3];  ///< columns without dual numbers by kind and axis; -1: none
+  int analytic_[8][3];  ///< columns without dual numbers by kind and axis; -1: none
 };
 
 }  // namespace ident

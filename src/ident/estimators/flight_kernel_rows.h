@@ -31,11 +31,11 @@ class KernelRows {
   using Vector = typename RowProducts<Isa>::Vector;
   static constexpr int lanes = RowProducts<Isa>::lanes;
 
-  /// What a row has beside its slopes over the columns with dual numbers: three others at most.
+  /// What a row has beside its slopes over the columns with dual numbers: four others at most.
   struct Row {
     int channel = 0, others = 0;
-    int column[3] = {};
-    double slope[3] = {};
+    int column[4] = {};
+    double slope[4] = {};
   };
 
   KernelRows(const ChunkTask& task, const KernelPlan<Isa>& of, std::size_t most) : task_(task), of_(of) {

@@ -56,13 +56,14 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     // No model predicts gusts: they count in the floor.
     expect_outside(P, layout.w_dot, noise.in_log(arc.log).w_dot, horizon);
     expect_outside(P, layout.v_dot, noise.in_log(arc.log).v_dot, horizon);
-    // The error of the attitude shown goes on from what it was: half way, say.
-    for (int i = 0; i < 3 && layout.attitude_error >= 0; ++i) {
-      const ColouredNoise& error = noise.attitude_error[static_cast<std::size_t>(i)];
-      const double share = error.carried(horizon / 2),
-                   fresh = error.sigma * error.sigma * (1 - share * share);
-      P(layout.attitude_error + i, layout.attitude_error + i) += fresh;
-    }
+    // Errors of what is shown go on from what they were: half way, say.
+    for (std::size_t g = 0; g < kShownGroups; ++g)
+      for (int i = 0; i < 3 && layout.shown_error[g] >= 0; ++i) {
+        const ColouredNoise& error = noise.slow[g][static_cast<std::size_t>(i)];
+        const double share = error.carried(horizon / 2);
+        P(layout.shown_error[g] + i, layout.shown_error[g] + i) +=
+            error.sigma * error.sigma * (1 - share * share);
+      }
     if (one.end < arc.rows()) {
       const AccelerationVariance error = input_error(record, arc, one.begin, one.end, noise.axes);
       for (int i = 0; i < 3; ++i) {

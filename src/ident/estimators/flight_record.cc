@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "ident/core/error.h"
 #include "ident/core/parallel.h"
-#include "ident/estimators/flight_attitude_drift.h"
 #include "ident/estimators/flight_pieces.h"
 #include "ident/estimators/flight_record_start.h"
+#include "ident/estimators/flight_slow_errors.h"
 #include "ident/estimators/flight_speed_modes.h"
 #include "ident/estimators/flight_velocity_bias.h"
 #include "ident/estimators/statistics.h"
@@ -146,14 +145,6 @@ void require_like_inputs(std::span<const FlightLog> logs) {
                       log.has_commands() ? logs.front().file : log.file));
 }
 
-// What an error of the attitude gains about its worst axis in a second, rad.
-double after_a_second(const std::array<ColouredNoise, 3>& error) {
-  double most = 0;
-  for (const ColouredNoise& axis : error)
-    most = std::max(most, axis.sigma * std::sqrt(2 * (1 - axis.carried(1.0))));
-  return most;
-}
-
 }  // namespace
 
 FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
@@ -195,16 +186,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
   take_out_velocity_bias(record);
   set_noise(record);
   set_start(record, p);
-  record.attitude_error = attitude_drift(record);
-  if (const double grows = after_a_second(record.attitude_error); grows > 0) {
-    record.layout.attitude_error = std::exchange(record.layout.size, record.layout.size + 3);
-    record.warnings.push_back(
-        {"attitude_drifts",
-         fmt::format(
-             "in a second the attitude strays by {:.2g} rad from the integral of the rates, more than "
-             "noise makes it: a slow error is estimated with it, as an estimator's attitude has",
-             grows)});
-  }
+  add_slow_errors(record);
   return record;
 }
 

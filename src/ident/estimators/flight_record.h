@@ -52,9 +52,9 @@ struct FlightRecord {
   Signals signals;
   StateLayout layout;
   std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
-  std::array<ColouredNoise, 3> attitude_error{};  ///< to start from; see attitude_drift()
-  double interval = 0.0;                          ///< median time between rows, s
-  double duration = 0.0;                          ///< of all arcs, s
+  SlowErrors slow{};                      ///< to start from; see slow_errors()
+  double interval = 0.0;                  ///< median time between rows, s
+  double duration = 0.0;                  ///< of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   std::vector<Warning> warnings;
   std::vector<double> p;  ///< the stated constants: states to start from are simulated with them, and what

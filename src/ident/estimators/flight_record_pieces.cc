@@ -8,12 +8,9 @@
 namespace ident {
 
 FlightRecord without_arcs(const FlightRecord& record) {
-  return {record.vehicle,        {},
-          record.logs,           record.signals,
-          record.layout,         record.sigma,
-          record.attitude_error, record.interval,
-          record.duration,       record.motor_rate,
-          record.warnings,       record.p};
+  return {record.vehicle,  {},          record.logs,     record.signals,  record.layout,
+          record.sigma,    record.slow, record.interval, record.duration, record.motor_rate,
+          record.warnings, record.p};
 }
 
 FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {

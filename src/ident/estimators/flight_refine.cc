@@ -226,8 +226,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     result.fit["process_noise"].push_back(
         {{"angular_acceleration", process_json(air.w_dot)}, {"acceleration", process_json(air.v_dot)}});
   result.fit["axes_of_acceleration"] = fit.noise.axes == GustAxes::world ? "world" : "body";
-  if (record.layout.attitude_error >= 0)
-    result.fit["attitude_error"] = process_json(fit.noise.attitude_error);
+  static constexpr std::array shown = {"attitude", "velocity", "position"};
+  for (std::size_t g = 0; g < shown.size(); ++g)
+    if (record.layout.shown_error[g] >= 0)
+      result.fit["slow_errors"][shown[g]] = process_json(fit.noise.slow[g]);
   nlohmann::ordered_json levels;
   for (int c = 0; c < kChannels; ++c)
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)

@@ -198,10 +198,17 @@ Section outside_accelerations(const FlightRecord& record, const FlightFit& fit) 
                                           : "Acceleration from outside, body frame",
         "acceleration [m/s^2]", air.v_dot,
         [](const State& x, std::size_t i) { return x.outside.v_dot[static_cast<Eigen::Index>(i)]; });
-  if (record.layout.attitude_error >= 0)
-    add("attitude-error", "Slow error of the attitude as shown, body frame", "angle [rad]",
-        fit.noise.attitude_error,
-        [](const State& x, std::size_t i) { return x.attitude_error[static_cast<Eigen::Index>(i)]; });
+  const auto add_shown = [&](std::size_t g, const char* id, const char* title, const char* y_label) {
+    if (record.layout.shown_error[g] >= 0)
+      add(id, title, y_label, fit.noise.slow[g],
+          [g](const State& x, std::size_t i) { return x.shown_error[g][static_cast<Eigen::Index>(i)]; });
+  };
+  add_shown(kShownAttitude, "attitude-error", "Slow error of the attitude as shown, body frame",
+            "angle [rad]");
+  add_shown(kShownVelocity, "velocity-error", "Slow error of the velocity as shown, world frame",
+            "speed [m/s]");
+  add_shown(kShownPosition, "position-error", "Slow error of the position as shown, world frame",
+            "distance [m]");
   return section;
 }
 

@@ -3,11 +3,10 @@
 //
 //   cost = sum_chunks rho(r_k(x_k, theta)^2) + sum_links d_k' W_k d_k ,   d_k = end(x_k, theta) - x_(k+1)
 //
-// The state holds accelerations from outside, and where it drifts the error of the attitude shown, that are
-// constant over a chunk and follow a Gauss-Markov process from one to the next; all else continues without a
-// jump. No such noise makes one long output-error fit,
-// infinite noise unlinked segments. The states are a block tridiagonal system with a border of shared
-// unknowns; elimination costs O(length).
+// The state holds accelerations from outside, and slow errors of what is shown, that are constant over a
+// chunk and follow a Gauss-Markov process from one to the next; all else continues without a jump. No such
+// noise makes one long output-error fit, infinite noise unlinked segments. The states are a block tridiagonal
+// system with a border of shared unknowns; elimination costs O(length).
 #pragma once
 
 #include <Eigen/Core>
@@ -198,15 +197,15 @@ class FlightSmoother {
   // Three components of the state that follow a Gauss-Markov process from chunk to chunk; at -1 there are
   // none.
   struct Process {
-    int at;
-    const std::array<ColouredNoise, 3>* noise;
-    int first_input;  // axis of input_error() of the first one; -1: the input has nothing to do with it
-    double least;     // variance that stands for none
+    int at = -1;
+    const std::array<ColouredNoise, 3>* noise = nullptr;
+    int first_input = -1;  // axis of input_error() of the first one; -1: the input has nothing to do with it
+    double least = 0.0;    // variance that stands for none
 
     const ColouredNoise& axis(int i) const { return (*noise)[static_cast<std::size_t>(i)]; }
     int input_axis(int i) const { return first_input < 0 ? -1 : first_input + i; }
   };
-  std::array<Process, 3> processes(std::size_t k) const;
+  std::array<Process, 2 + kShownGroups> processes(std::size_t k) const;
 
   ChunkTask task(std::size_t k, const Eigen::VectorXd& u, const std::vector<double>& p,
                  const std::vector<std::vector<Seed>>& seeds) const;

@@ -18,8 +18,8 @@ double length(const FlightRecord& record, const ChunkPlace& place) {
   return arc.t[place.end] - arc.t[place.begin];
 }
 
-// Far below what one chunk tells of an acceleration from outside, or of an angle: no noise means none.
-constexpr double kLeastOutside = 1e-10, kLeastAngle = 1e-14;
+// Far below what one chunk tells of an acceleration from outside, or of what is shown: no noise means none.
+constexpr double kLeastOutside = 1e-10, kLeastShown = 1e-14;
 
 // The motors' noise reaches zero. At the floor of the other states single precision would then speak through
 // their links, and the diagnosis name what is rounding.
@@ -65,12 +65,14 @@ const AirNoise& FlightSmoother::air_of(std::size_t k) const {
 }
 
 // Parts of the state of chunk k that follow a Gauss-Markov process from one chunk to the next.
-std::array<FlightSmoother::Process, 3> FlightSmoother::processes(std::size_t k) const {
+std::array<FlightSmoother::Process, 2 + kShownGroups> FlightSmoother::processes(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const AirNoise& air = air_of(k);
-  return {Process{layout.w_dot, &air.w_dot, 0, kLeastOutside},
-          Process{layout.v_dot, &air.v_dot, 3, kLeastOutside},
-          Process{layout.attitude_error, &noise_.attitude_error, -1, kLeastAngle}};
+  std::array<Process, 2 + kShownGroups> all = {Process{layout.w_dot, &air.w_dot, 0, kLeastOutside},
+                                               Process{layout.v_dot, &air.v_dot, 3, kLeastOutside}};
+  for (std::size_t g = 0; g < kShownGroups; ++g)
+    all[2 + g] = {layout.shown_error[g], &noise_.slow[g], -1, kLeastShown};
+  return all;
 }
 
 // Share of each state component that is left at the start of the next chunk.
@@ -117,7 +119,8 @@ VectorXd FlightSmoother::outside(std::size_t k) const {
   VectorXd x = VectorXd::Zero(layout.size);
   if (layout.w_dot >= 0) x.segment<3>(layout.w_dot) = trial_[k].outside.w_dot_B;
   if (layout.v_dot >= 0) x.segment<3>(layout.v_dot) = trial_[k].outside.v_dot;
-  if (layout.attitude_error >= 0) x.segment<3>(layout.attitude_error) = trial_[k].attitude_error;
+  for (std::size_t g = 0; g < kShownGroups; ++g)
+    if (layout.shown_error[g] >= 0) x.segment<3>(layout.shown_error[g]) = trial_[k].shown_error[g];
   return x;
 }
 

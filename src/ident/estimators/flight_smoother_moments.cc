@@ -17,10 +17,9 @@ using Eigen::VectorXd;
 namespace {
 
 // Gusts are not slower than this, s: what stays longer is a cause to be found, not noise. An estimator's
-// attitude is.
-constexpr double kSlowest = 4.0, kSlowestAttitude = 30.0;
-// How much denser an error of the attitude may be than the log alone shows it: what a model misses looks like
-// more of it.
+// errors are.
+constexpr double kSlowest = 4.0, kSlowestShown = 30.0;
+// How much denser a slow error may be than the log alone shows it: what a model misses looks like more of it.
 constexpr double kMostDense = 3.0;
 // The shared unknowns, which noise moves little and which make elimination twice as dear, are held for so
 // many rounds; many of them, the causes of a diagnosis, make it four times as dear.
@@ -130,7 +129,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
   double change = 0;
   VectorXd du;
   std::vector<std::array<Pace, 6>> paces(noise_.air.size());
-  std::array<Pace, 3> paces_of_attitude;
+  std::array<std::array<Pace, 3>, kShownGroups> paces_of_shown;
   for (int round = 0; round < rounds; ++round) {
     const bool many = shared() >= kManyShared;
     const bool again = many ? round == 0 || round == 3 : round % kHeld == 0 || round <= 2;
@@ -143,7 +142,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
       std::array<ProcessMoments, 3> turn, push;
     };
     std::vector<LogMoments> logs(noise_.air.size());
-    std::array<ProcessMoments, 3> attitude;
+    std::array<std::array<ProcessMoments, 3>, kShownGroups> shown;
     double motors = 0, motors_determined = 0, motors_floor = 0, links = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       if (!places_[k].linked) continue;
@@ -160,8 +159,9 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
         }
       };
       LogMoments& log = logs[static_cast<std::size_t>(arc.log)];
-      const auto [turn, push, shown] = processes(k);
-      add(log.turn, turn), add(log.push, push), add(attitude, shown);
+      const auto all = processes(k);
+      add(log.turn, all[0]), add(log.push, all[1]);
+      for (std::size_t g = 0; g < kShownGroups; ++g) add(shown[g], all[2 + g]);
       if (layout.motors < 0 || noise_.q_motor <= 0) continue;
       const auto E = chunk::E(results_[k], n);
       const VectorXd d = defect(k), W = link_weight(k);
@@ -179,12 +179,13 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
         change =
             std::max({change, logs[log].turn[i].update(noise_.air[log].w_dot[i], paces[log][i], kSlowest),
                       logs[log].push[i].update(noise_.air[log].v_dot[i], paces[log][3 + i], kSlowest)});
-    for (std::size_t i = 0; i < 3; ++i) {
-      ColouredNoise& error = noise_.attitude_error[i];
-      change = std::max(change, attitude[i].update(error, paces_of_attitude[i], kSlowestAttitude));
-      const ColouredNoise& seen = record_->attitude_error[i];
-      error.sigma = std::min(error.sigma, seen.sigma * std::sqrt(kMostDense * error.tau / seen.tau));
-    }
+    for (std::size_t g = 0; g < kShownGroups; ++g)
+      for (std::size_t i = 0; i < 3 && layout.shown_error[g] >= 0; ++i) {
+        ColouredNoise& error = noise_.slow[g][i];
+        change = std::max(change, shown[g][i].update(error, paces_of_shown[g][i], kSlowestShown));
+        const ColouredNoise& seen = record_->slow[g][i];
+        error.sigma = std::min(error.sigma, seen.sigma * std::sqrt(kMostDense * error.tau / seen.tau));
+      }
     if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
       const VarianceStep step(motors, motors_determined, links);
       // It is the variance of the links, of which the floor is a part, that is to shrink by that ratio.

@@ -61,7 +61,8 @@ FlightState<double> FlightSmoother::moved(const FlightState<double>& x, const Ve
   if (layout.x >= 0) y.body.x_W += dx.segment<3>(layout.x);
   if (layout.w_dot >= 0) y.outside.w_dot_B += dx.segment<3>(layout.w_dot);
   if (layout.v_dot >= 0) y.outside.v_dot += dx.segment<3>(layout.v_dot);
-  if (layout.attitude_error >= 0) y.attitude_error += dx.segment<3>(layout.attitude_error);
+  for (std::size_t g = 0; g < kShownGroups; ++g)
+    if (layout.shown_error[g] >= 0) y.shown_error[g] += dx.segment<3>(layout.shown_error[g]);
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     y.motors[static_cast<std::size_t>(n)].Omega += dx[layout.motors + n];
     y.motors[static_cast<std::size_t>(n)].Omega_dot += dx[layout.motors + layout.rotors + n];
@@ -87,7 +88,8 @@ VectorXd FlightSmoother::defect(std::size_t k) const {
   };
   carries(layout.w_dot, a.outside.w_dot_B, b.outside.w_dot_B);
   carries(layout.v_dot, a.outside.v_dot, b.outside.v_dot);
-  carries(layout.attitude_error, a.attitude_error, b.attitude_error);
+  for (std::size_t g = 0; g < kShownGroups; ++g)
+    carries(layout.shown_error[g], a.shown_error[g], b.shown_error[g]);
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const auto m = static_cast<std::size_t>(n);
     d[layout.motors + n] = a.motors[m].Omega - b.motors[m].Omega;

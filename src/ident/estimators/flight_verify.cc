@@ -72,7 +72,7 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   NoiseModel calm = noise;
   for (AirNoise& air : calm.air)
     for (std::size_t i = 0; i < 3; ++i) air.w_dot[i].sigma = air.v_dot[i].sigma = 0.0;
-  calm.attitude_error = {};
+  calm.slow = {};
   smoother.set_noise(calm);
   smoother.unlink();
   smoother.settle(Eigen::VectorXd::Zero(theta.size()), 4);

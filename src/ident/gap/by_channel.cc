@@ -41,9 +41,12 @@ std::vector<Part> parts_of(const FlightRecord& record) {
       if (first >= 0) part.states[first + axis] = 1;
   };
   for (int k = 0; k < 3; ++k)
-    add(k, k, {kGyro, kAttitude}, {layout.w, layout.attitude, layout.w_dot, layout.attitude_error});
+    add(k, k, {kGyro, kAttitude},
+        {layout.w, layout.attitude, layout.w_dot, layout.shown_error[kShownAttitude]});
   for (int k = 0; k < 3; ++k)
-    add(k + 3, k, {kForce, kVelocity, kPosition}, {layout.v, layout.x, layout.v_dot});
+    add(k + 3, k, {kForce, kVelocity, kPosition},
+        {layout.v, layout.x, layout.v_dot, layout.shown_error[kShownVelocity],
+         layout.shown_error[kShownPosition]});
   if (layout.motors < 0) return parts;
   // Motors that nobody measures may stray a little from their equation, and that little says something too.
   Part& motors = part_named(record.signals.rotor_speeds ? "rotor speeds" : "motors (not measured)");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ident/core/parallel.h"
+#include "ident/estimators/flight_slow_errors.h"
 #include "ident/gap/held_out_gain.h"
 
 namespace ident {
@@ -127,6 +128,7 @@ void add_sensors(Rival& rival, const FlightRecord& record, const FlightSmoother&
     parts.push_back(part_of(record.arcs[static_cast<std::size_t>(place.arc)], place.arc, place.begin));
   std::vector<double> gains(static_cast<std::size_t>(kRotorChannel + record.layout.rotors), kNaN);
   in_parallel(gains.size(), [&](std::size_t channel) {
+    if (is_slowly_off(record, static_cast<int>(channel))) return;
     SensorResiduals of{VectorXd::Zero(X.rows()), VectorXd::Zero(X.rows())};
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       const Sum whole = sum_of(residuals[k], channel, 0, residuals[k].size());

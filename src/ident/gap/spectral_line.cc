@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "ident/core/parallel.h"
+#include "ident/estimators/flight_slow_errors.h"
 
 namespace ident {
 namespace {
@@ -86,6 +87,7 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
   const auto& states = fit.smoother->states();
   std::vector<std::vector<SpectralLine>> found(kChannels + 6);
   const auto look_at_sensor = [&](int channel) {
+    if (is_slowly_off(record, channel)) return;
     Pieces pieces(record.arcs.size());
     double seconds = 0, samples = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {

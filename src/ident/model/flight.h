@@ -29,14 +29,17 @@ struct FlightInputs {
   bool commanded() const { return !delta.empty(); }
 };
 
-/// Whole state: body and motors; and by how much the attitude that a sensor shows is turned from the true
-/// one, about the axes of the body, rad.
+/// What an estimator may show with a slow error: attitude, about the axes of the body; velocity and position,
+/// in the world.
+enum ShownGroup : int { kShownAttitude, kShownVelocity, kShownPosition, kShownGroups };
+
+/// Whole state: body and motors; and by how much what is shown of it is off, rad, m/s, m.
 template <class S>
 struct FlightState {
   BodyState<S> body;
   std::array<MotorState<S>, kMaxRotors> motors{};
   Disturbance<S> outside;
-  Vec3<double> attitude_error{0.0, 0.0, 0.0};
+  Vec3<double> shown_error[kShownGroups] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
 };
 
 /// Half way through a step: the motors, and the body's rate as the step took it.

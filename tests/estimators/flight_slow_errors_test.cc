@@ -1,13 +1,16 @@
-// An attitude that drifts: seen in the log alone, estimated with the flight, and no gap.
-#include "ident/estimators/flight_attitude_drift.h"
+// Attitudes, velocities and positions of estimators: seen in the log alone, estimated with the flight, no
+// gap.
+#include "ident/estimators/flight_slow_errors.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "ident/effects/catalogue.h"
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_refine.h"
 #include "support/diagnosed.h"
-#include "support/drifting_attitude.h"
+#include "support/slow_errors.h"
 
 namespace ident {
 namespace {
@@ -25,9 +28,15 @@ FlightRecord record_of(const Vehicle& vehicle, const FlightLog& log) {
   return make_flight_record(vehicle, parameter_vector(vehicle), logs);
 }
 
-bool drifts(const FlightRecord& record) { return record.layout.attitude_error >= 0; }
+bool drifts(const FlightRecord& record, ShownGroup group = kShownAttitude) {
+  return record.layout.shown_error[group] >= 0;
+}
 
-TEST(AttitudeDrift, IsSeenInTheLogAndToldOnce) {
+bool any_drifts(const FlightRecord& record) {
+  return drifts(record, kShownAttitude) || drifts(record, kShownVelocity) || drifts(record, kShownPosition);
+}
+
+TEST(SlowErrors, IsSeenInTheLogAndToldOnce) {
   const Vehicle vehicle = testing::published_vehicle();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     FlightLog log = flown(vehicle, seed).log;
@@ -35,39 +44,61 @@ TEST(AttitudeDrift, IsSeenInTheLogAndToldOnce) {
     testing::drift_attitude(log, kError, seed);
     const FlightRecord record = record_of(vehicle, log);
     ASSERT_TRUE(drifts(record)) << seed;
-    const auto told = std::ranges::count(record.warnings, "attitude_drifts", &Warning::code);
+    const auto told = std::ranges::count(record.warnings, "slow_errors", &Warning::code);
     EXPECT_EQ(told, 1) << seed;
-    for (const ColouredNoise& axis : record.attitude_error) {  // its density is that, more or less
+    for (const ColouredNoise& axis : record.slow[kShownAttitude]) {  // its density is that, more or less
       const double density = axis.sigma * axis.sigma / axis.tau;
       EXPECT_NEAR(std::log(density / (kError.sigma * kError.sigma / kError.tau)), 0.0, 0.8) << seed;
     }
   }
 }
 
+// Velocities against forces and positions; what is off by itself is not taken for another.
+TEST(SlowErrors, AreToldApart) {
+  const Vehicle vehicle = testing::published_vehicle();
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    FlightLog fast = flown(vehicle, seed).log, far = fast;
+    testing::drift(fast.v_W, fast.t, {0.08, 5.0}, seed);
+    EXPECT_TRUE(drifts(record_of(vehicle, fast), kShownVelocity)) << seed;
+    testing::drift(far.x_W, far.t, {0.3, 8.0}, seed);
+    EXPECT_TRUE(drifts(record_of(vehicle, far), kShownPosition)) << seed;
+    EXPECT_FALSE(drifts(record_of(vehicle, far), kShownVelocity)) << seed;
+    EXPECT_FALSE(drifts(record_of(vehicle, far), kShownAttitude)) << seed;
+  }
+}
+
 // How a sensor is mounted, its scale, bias or delay is none of it, nor is flight with little of anything.
-TEST(AttitudeDrift, IsNotWhatElsePartsAttitudeFromRates) {
+TEST(SlowErrors, AreNotWhatElsePartsSensors) {
   const Vehicle plain = testing::published_vehicle();
-  Vehicle turned = plain;
-  turned.parameters["imu_misalignment.x"].value = 0.05, turned.parameters["imu_misalignment.z"].value = -0.04;
-  EXPECT_FALSE(drifts(record_of(plain, flown(turned, 1).log)));
+  const auto with = [&](std::initializer_list<std::pair<const char*, double>> values) {
+    Vehicle vehicle = plain;
+    for (const auto& [name, value] : values) vehicle.parameters[name].value = value;
+    return flown(vehicle, 1).log;
+  };
+  EXPECT_FALSE(
+      any_drifts(record_of(plain, with({{"imu_misalignment.x", 0.05}, {"imu_misalignment.z", -0.04}}))));
+  EXPECT_FALSE(any_drifts(record_of(plain, with({{"imu_bias.ax", 0.3}, {"imu_bias.az", -0.2}}))));
+  EXPECT_FALSE(any_drifts(record_of(plain, with({{"imu_lever_arm.x", 0.06}, {"imu_lever_arm.z", 0.04}}))));
+  EXPECT_FALSE(any_drifts(record_of(plain, with({{"sensor_delay.tau", 0.02}}))));
+  EXPECT_FALSE(any_drifts(record_of(plain, with({{"wind.north", 4.0}, {"rotor_drag.kd", 1e-4}}))));
   FlightLog late = flown(plain, 1).log;
-  for (auto& column : late.q_WB) std::rotate(column.begin(), column.end() - 3, column.end());
+  for (auto& column : late.q_WB) std::shift_right(column.begin(), column.end(), 3);
   EXPECT_FALSE(drifts(record_of(plain, late)));
   FlightLog biased = flown(plain, 1).log;
   for (double& p : biased.w_B[0]) p += 0.03;
-  EXPECT_FALSE(drifts(record_of(plain, biased)));
+  EXPECT_FALSE(any_drifts(record_of(plain, biased)));
   FlightLog rare = flown(plain, 1).log;
   for (std::size_t i = 0; i < rare.rows(); ++i)
     for (auto& column : rare.q_WB)
       if (i % 10 != 0) column[i] = kNaN;
-  EXPECT_FALSE(drifts(record_of(plain, rare)));
+  EXPECT_FALSE(any_drifts(record_of(plain, rare)));
   FlightLog short_one = flown(plain, 1, 3.0).log;
   testing::drift_attitude(short_one, kError, 1);
-  EXPECT_FALSE(drifts(record_of(plain, short_one)));  // too short to tell
+  EXPECT_FALSE(any_drifts(record_of(plain, short_one)));  // too short to tell
 }
 
 // Noise rounds find the level, and the states the error itself.
-TEST(AttitudeDrift, IsEstimatedWithTheFlight) {
+TEST(SlowErrors, IsEstimatedWithTheFlight) {
   const Vehicle vehicle = testing::published_vehicle();
   FlightLog log = flown(vehicle, 3).log;
   const FlightLog true_log = log;
@@ -87,10 +118,10 @@ TEST(AttitudeDrift, IsEstimatedWithTheFlight) {
     const Vec3<double> error =
         rotation_vector_from_quaternion(quaternion_product(conjugate(attitude(true_log)), attitude(log)));
     shown += error.head<2>().squaredNorm();
-    left += (error - fit.smoother->states()[k].attitude_error).head<2>().squaredNorm();
+    left += (error - fit.smoother->states()[k].shown_error[kShownAttitude]).head<2>().squaredNorm();
   }
   EXPECT_LT(left, 0.25 * shown);  // roll and pitch: gravity tells
-  for (const ColouredNoise& axis : fit.noise.attitude_error) {
+  for (const ColouredNoise& axis : fit.noise.slow[kShownAttitude]) {
     const double density = axis.sigma * axis.sigma / axis.tau;
     EXPECT_NEAR(std::log(density / (kError.sigma * kError.sigma / kError.tau)), 0.0, 0.7);
   }
@@ -99,7 +130,7 @@ TEST(AttitudeDrift, IsEstimatedWithTheFlight) {
                 0.2 * noise_level("typical").attitude);
 }
 
-TEST(AttitudeDrift, IsNoGapAndHidesNone) {
+TEST(SlowErrors, IsNoGapAndHidesNone) {
   const Vehicle model = testing::published_vehicle();
   Vehicle truth = model;
   FlightLog log = flown(truth, 5).log;
@@ -110,6 +141,13 @@ TEST(AttitudeDrift, IsNoGapAndHidesNone) {
   testing::drift_attitude(turned, kError, 6);
   const auto verdict = testing::verdict_of(model, turned);
   EXPECT_EQ(verdict["effects"], nlohmann::ordered_json({"imu_misalignment"})) << verdict;
+}
+
+TEST(SlowErrors, OfAnAutopilotsFilterAreNoGap) {
+  const Vehicle model = testing::published_vehicle();
+  FlightLog log = flown(model, 7).log;
+  testing::estimate(log, model.g);
+  EXPECT_EQ(testing::verdict_of(model, log)["status"], "none") << testing::verdict_of(model, log);
 }
 
 }  // namespace

@@ -1,0 +1,366 @@
+// One sensor against the integral of another over short and long lags: white noise of the one is the same in
+// both, that of the other grows by its own density, and what grows faster is a slow error.
+#include "ident/estimators/flight_slow_errors.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <utility>
+
+#include "ident/estimators/flight_record_start.h"
+
+namespace ident {
+namespace {
+
+using Eigen::Array3d;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Means are taken over bins, s; windows at both ends of a lag, and the lags, in bins.
+constexpr double kBin = 0.05;
+constexpr std::size_t kMean = 4, kShort = 5, kLong = 20;
+// What is beyond chance, in deviations (of attitude, of velocity and position), and beyond what the
+// integrated sensor is known to do: noise is not quite white.
+constexpr double kBeyondChance = 2.5, kBeyondDoubt = 4.0, kBeyondNoise = 1.3;
+constexpr double kTime = 3.0;         // s, to start from
+constexpr double kLeastShare = 0.05;  // of what all axes show, to start from
+
+// What a sensor strays from the integral of another by, and what goes with the nuisances: columns of G, of
+// which one unknown each is common to all axes. Sums over bins of time; empty ones break the series.
+struct Stray {
+  struct Bin {
+    double count = 0;
+    Vector3d stray = Vector3d::Zero();
+    MatrixXd G;
+  };
+  Index nuisances;
+  std::vector<Bin> bins;
+  double begin = kNaN;
+
+  Vector3d last = Vector3d::Constant(kNaN);
+  double steps = 0, square = 0;  // from sample to sample, of all axes
+
+  void add(double t, const Vector3d& stray, const MatrixXd& G) {
+    if (!std::isfinite(begin)) begin = t;
+    if (last.allFinite()) steps += 3, square += (stray - last).squaredNorm();
+    last = stray;
+    const auto at = static_cast<std::size_t>((t - begin) / kBin);
+    while (bins.size() <= at) bins.push_back({0.0, Vector3d::Zero(), MatrixXd::Zero(3, nuisances)});
+    bins[at].count += 1, bins[at].stray += stray, bins[at].G += G;
+  }
+};
+
+std::vector<double> filled_column(const FlightArc& arc, int channel) {
+  std::vector<double> column(arc.rows());
+  for (std::size_t i = 0; i < arc.rows(); ++i)
+    column[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+  return interpolated(arc.t, column);
+}
+
+// Three channels by row, filled between their samples; nothing without any.
+class Filled {
+ public:
+  Filled(const FlightArc& arc, int group) {
+    for (int k = 0; k < 3; ++k) columns_[static_cast<std::size_t>(k)] = filled_column(arc, group + k);
+  }
+  bool empty() const { return columns_[0].empty() || columns_[1].empty() || columns_[2].empty(); }
+  Vector3d operator[](std::size_t i) const { return {columns_[0][i], columns_[1][i], columns_[2][i]}; }
+
+ private:
+  std::array<std::vector<double>, 3> columns_;
+};
+
+bool sampled(const FlightArc& arc, std::size_t i, int group) {
+  return std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(group)]);
+}
+
+Vector3d measured(const FlightArc& arc, std::size_t i, int group) {
+  const double* y = arc.y.data() + i * kChannels + group;
+  return {y[0], y[1], y[2]};
+}
+
+// Of the attitude from rates. Nuisances: a matrix over the angle (mounting, scale), one over the rate
+// (delay), and a bias.
+Stray of_attitude(const FlightArc& arc) {
+  Stray out{21};
+  const Filled rate(arc, kGyro);
+  if (rate.empty()) return out;
+  const Vec4<double> still(1, 0, 0, 0);
+  Vec4<double> before = still, turned = still;  // at the last sample, and since then by the rates
+  Vector3d stray = Vector3d::Zero(), angle = stray;
+  bool begun = false;
+  for (std::size_t i = 0; i < arc.rows(); ++i) {
+    if (i > 0) {
+      const Vector3d step = 0.5 * (arc.t[i] - arc.t[i - 1]) * (rate[i] + rate[i - 1]);
+      turned = quaternion_product(turned, quaternion_from_rotation_vector(step)), angle += step;
+    }
+    if (!sampled(arc, i, kAttitude)) continue;
+    const Vec4<double> q(arc.q[4 * i], arc.q[4 * i + 1], arc.q[4 * i + 2], arc.q[4 * i + 3]);
+    if (begun)
+      stray += rotation_vector_from_quaternion(quaternion_product(conjugate(before), q)) -
+               rotation_vector_from_quaternion(turned);
+    before = q, turned = still, begun = true;
+    MatrixXd G = MatrixXd::Zero(3, out.nuisances);
+    for (Index axis = 0; axis < 3; ++axis)
+      G.row(axis).segment<7>(7 * axis) << angle.transpose(), rate[i].transpose(), arc.t[i] - arc.t[0];
+    out.add(arc.t[i], stray, G);
+  }
+  return out;
+}
+
+Eigen::Matrix3d cross_matrix(const Vector3d& v) {
+  return Eigen::Matrix3d{{0, -v[2], v[1]}, {v[2], 0, -v[0]}, {-v[1], v[0], 0}};
+}
+
+// Of the velocity from specific force. Nuisances: bias, mounting and scale of the accelerometer, its place,
+// delays of attitude and velocity, and gravity or an attitude that is off by a constant.
+Stray of_velocity(const FlightArc& arc, double gravity) {
+  Stray out{17};
+  const Filled force(arc, kForce);
+  if (force.empty()) return out;
+  Vector3d stray = Vector3d::Zero();
+  Eigen::Matrix<double, 3, 10> turned = Eigen::Matrix<double, 3, 10>::Zero();  // by the accelerometer's own
+  Eigen::Matrix<double, 3, 10> slope_before;
+  Vector3d pull_before;
+  for (std::size_t i = 0; i < arc.rows(); ++i) {
+    const Eigen::Matrix3d R_WB = rotation(arc.start[i].body.q_WB);
+    const Vector3d f = force[i], pull = R_WB * f + Vector3d(0, 0, gravity);
+    Eigen::Matrix<double, 3, 10> slope;
+    slope << R_WB, R_WB * cross_matrix(f), R_WB * f.asDiagonal(), R_WB * cross(arc.start[i].body.w_B, f);
+    if (i > 0) {
+      const double h = 0.5 * (arc.t[i] - arc.t[i - 1]);
+      stray -= h * (pull + pull_before), turned += h * (slope + slope_before);
+    }
+    pull_before = pull, slope_before = slope;
+    if (!sampled(arc, i, kVelocity)) continue;
+    MatrixXd G(3, out.nuisances);
+    G << turned, R_WB * cross_matrix(arc.start[i].body.w_B), pull,
+        (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
+    out.add(arc.t[i], measured(arc, i, kVelocity) + stray, G);
+  }
+  return out;
+}
+
+// Of the position from velocity. Nuisances: a delay, the sensor's place, a bias.
+Stray of_position(const FlightArc& arc) {
+  Stray out{7};
+  const Filled velocity(arc, kVelocity);
+  if (velocity.empty()) return out;
+  Vector3d path = Vector3d::Zero();
+  for (std::size_t i = 0; i < arc.rows(); ++i) {
+    if (i > 0) path += 0.5 * (arc.t[i] - arc.t[i - 1]) * (velocity[i] + velocity[i - 1]);
+    if (!sampled(arc, i, kPosition)) continue;
+    MatrixXd G(3, out.nuisances);
+    G << velocity[i], rotation(arc.start[i].body.q_WB), (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
+    out.add(arc.t[i], measured(arc, i, kPosition) - path, G);
+  }
+  return out;
+}
+
+// Mean square by axis of what is left of a stray over a lag once nuisances are taken out.
+struct MeanSquare {
+  Array3d sum = Array3d::Zero();
+  double degrees = 0;  // of each axis
+
+  void add(const Stray& of, std::size_t lag) {
+    struct Window {
+      Vector3d stray;
+      MatrixXd G;
+    };
+    const auto mean = [&](std::size_t first) {
+      Stray::Bin all{0.0, Vector3d::Zero(), MatrixXd::Zero(3, of.nuisances)};
+      for (std::size_t k = first; k < first + kMean; ++k)
+        all.count += of.bins[k].count, all.stray += of.bins[k].stray, all.G += of.bins[k].G;
+      return all;
+    };
+    std::vector<Window> windows;
+    for (std::size_t k = 0; k + lag + kMean <= of.bins.size(); k += lag) {
+      const Stray::Bin a = mean(k), b = mean(k + lag);
+      if (a.count > 0 && b.count > 0)
+        windows.push_back({b.stray / b.count - a.stray / a.count, b.G / b.count - a.G / a.count});
+    }
+    const double n = static_cast<double>(windows.size()), per_axis = static_cast<double>(of.nuisances) / 3;
+    if (n < 2 * per_axis) return;
+    MatrixXd H = MatrixXd::Zero(of.nuisances, of.nuisances);
+    VectorXd g = VectorXd::Zero(of.nuisances);
+    for (const Window& w : windows) H += w.G.transpose() * w.G, g += w.G.transpose() * w.stray;
+    const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
+    scaled.diagonal().array() += 1e-10;
+    const VectorXd x = s.asDiagonal() * scaled.ldlt().solve(s.asDiagonal() * g);
+    for (const Window& w : windows) sum += (w.stray - w.G * x).array().square();
+    degrees += n - per_axis;
+  }
+  Array3d mean() const { return sum / degrees; }
+  Array3d variance() const { return 2 * mean().square() / degrees; }
+};
+
+// Density of the white noise of a group, in its unit squared times s.
+Array3d density_of(const FlightRecord& record, int group) {
+  double samples = 0;
+  for (const FlightArc& arc : record.arcs)
+    for (std::size_t i = 0; i < arc.rows(); ++i) samples += sampled(arc, i, group);
+  const auto g = static_cast<std::size_t>(group);
+  const Array3d sigma(record.sigma[g], record.sigma[g + 1], record.sigma[g + 2]);
+  return sigma.square() * record.duration / std::max(samples, 1.0);
+}
+
+// Whether white noise is most of what a group changes by from row to row: then second differences next to
+// each other are correlated by -2/3. Without, exact data, all sensors agree with each other's integral.
+bool is_noisy(const FlightRecord& record, int group) {
+  constexpr double kNoisy = -0.4;
+  double square = 0, next = 0;
+  for (const FlightArc& arc : record.arcs) {
+    Vector3d a = Vector3d::Constant(kNaN), b = a, last = a;
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      const Vector3d y = measured(arc, i, group);
+      if (!y.allFinite()) continue;
+      const Vector3d second = y - 2 * b + a;
+      if (last.allFinite()) square += last.squaredNorm(), next += last.dot(second);
+      last = second, a = b, b = y;
+    }
+  }
+  return next < kNoisy * square;
+}
+
+// Whether samples change by no more than the integral does that they are held against: by far less than their
+// own noise would change them, for they are that integral, noise and all.
+bool are_integrated(const std::vector<Stray>& strays, const FlightRecord& record, int group, int integrated) {
+  if (!is_noisy(record, integrated)) return false;
+  constexpr double kShare = 0.3;
+  double steps = 0, square = 0, variance = 0;
+  for (const Stray& one : strays) steps += one.steps, square += one.square;
+  for (std::size_t k = 0; k < 3; ++k)
+    variance += std::pow(record.sigma[static_cast<std::size_t>(group) + k], 2) / 3;
+  return steps > 100 && square / steps < kShare * 2 * variance;
+}
+
+// What grows beyond `noise`, the density that is known, as a process; none unless beyond doubt.
+std::array<ColouredNoise, 3> beyond(const std::vector<Stray>& strays, const Array3d& noise,
+                                    double deviations) {
+  MeanSquare near, far;
+  for (const Stray& one : strays) near.add(one, kShort), far.add(one, kLong);
+  if (!(far.degrees > 0) || !(near.degrees > 0)) return {};
+  constexpr double kBetween = static_cast<double>(kLong - kShort) * kBin;
+  const Array3d grown = (far.mean() - near.mean()) / kBetween;
+  const double chance = std::sqrt((far.variance() + near.variance()).sum()) / kBetween;
+  const double more = (grown - noise).sum();
+  if (!(more > deviations * chance) || !(grown.sum() > kBeyondNoise * noise.sum())) return {};
+  std::array<ColouredNoise, 3> error;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Index>(k);
+    const double density = std::max(grown[axis] - noise[axis], kLeastShare * more);
+    error[k] = {std::sqrt(density * kTime / 2), kTime};
+  }
+  return error;
+}
+
+// What an error gains about its worst axis in a second.
+double after_a_second(const std::array<ColouredNoise, 3>& error) {
+  double most = 0;
+  for (const ColouredNoise& axis : error)
+    most = std::max(most, axis.sigma * std::sqrt(2 * (1 - axis.carried(1.0))));
+  return most;
+}
+
+// Within a second or so an estimator shows little but the integral of its rates and forces, and with it their
+// very noise, which would be seen twice and pass for gusts. So much white noise that for so long rates and
+// forces tell more.
+void hide_what_is_integrated(FlightRecord& record) {
+  constexpr double kLeans = 1.0;  // s, in which an estimator begins to lean on what else it knows
+  const auto found = [&](ShownGroup group) { return record.slow[group][0].sigma > 0; };
+  const auto hide = [&](int group, double density) {  // of the error after kLeans
+    for (std::size_t k = 0; k < 3; ++k) {
+      double& sigma = record.sigma[static_cast<std::size_t>(group) + k];
+      const double per_sample = density_of(record, group)[static_cast<Index>(k)] / (sigma * sigma);
+      sigma = std::max(sigma, std::sqrt(density / per_sample));
+    }
+  };
+  const double of_rates = density_of(record, kGyro).mean(), of_force = density_of(record, kForce).mean(),
+               of_velocity = density_of(record, kVelocity).mean();
+  constexpr double kTwice = kLeans * kLeans;
+  if (found(kShownAttitude)) hide(kAttitude, of_rates * kTwice);
+  if (found(kShownVelocity)) hide(kVelocity, of_force * kTwice);
+  if (found(kShownPosition))
+    hide(kPosition, found(kShownVelocity) ? of_force * kTwice * kTwice : of_velocity * kTwice);
+}
+
+}  // namespace
+
+FoundSlowErrors slow_errors(const FlightRecord& record) {
+  const Signals& logged = record.signals;
+  const double gravity = record.vehicle->g;
+  const auto strays = [&](auto&& of) {
+    std::vector<Stray> all;
+    for (const FlightArc& arc : record.arcs) all.push_back(of(arc));
+    return all;
+  };
+  FoundSlowErrors out;
+  auto& [found, estimated] = out;
+  if (!logged.attitude) return out;
+  const Array3d of_rates = density_of(record, kGyro), of_force = density_of(record, kForce);
+  if (logged.rates) {
+    const std::vector<Stray> all = strays(of_attitude);
+    found[kShownAttitude] = beyond(all, of_rates, kBeyondChance);
+    estimated = are_integrated(all, record, kAttitude, kGyro);
+  }
+  if (logged.force && logged.velocity) {
+    // An attitude that drifts lets gravity in; by how much more than its density says over a second, its time
+    // is not known.
+    constexpr double kOfDrift = 3.0;
+    Array3d tilt = gravity * gravity * density_of(record, kAttitude);
+    for (const ColouredNoise& axis : found[kShownAttitude])
+      tilt += kOfDrift / 3 * std::pow(gravity * axis.sigma, 2);
+    const std::vector<Stray> all = strays([&](const FlightArc& arc) { return of_velocity(arc, gravity); });
+    found[kShownVelocity] = beyond(all, Array3d(of_force.mean() + tilt.mean()), kBeyondDoubt);
+    estimated = estimated || are_integrated(all, record, kVelocity, kForce);
+  }
+  if (logged.velocity && logged.position)
+    found[kShownPosition] = beyond(strays(of_position), density_of(record, kVelocity), kBeyondDoubt);
+  // An autopilot's estimator shows all of it.
+  const auto strays_by = [&](ShownGroup group) { return found[group][0].sigma > 0; };
+  estimated =
+      estimated || strays_by(kShownVelocity) || (strays_by(kShownAttitude) && strays_by(kShownPosition));
+  if (!estimated) return out;
+  const auto at_least = [&](ShownGroup group, const Array3d& density) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ColouredNoise& axis = found[group][k];
+      axis = {std::max(axis.sigma, std::sqrt(density[static_cast<Index>(k)] * kTime / 2)), kTime};
+    }
+  };
+  if (logged.rates) at_least(kShownAttitude, of_rates);
+  if (logged.force && logged.velocity) at_least(kShownVelocity, of_force);
+  if (logged.force && logged.position) at_least(kShownPosition, of_force);
+  return out;
+}
+
+bool is_slowly_off(const FlightRecord& record, int channel) {
+  const int group = (channel - kAttitude) / 3;
+  return channel >= kAttitude && channel < kRotorChannel && record.layout.shown_error[group] >= 0;
+}
+
+void add_slow_errors(FlightRecord& record) {
+  const FoundSlowErrors seen = slow_errors(record);
+  record.slow = seen.errors;
+  if (seen.of_estimator) hide_what_is_integrated(record);
+  static constexpr std::array kWhat = {"attitude", "velocity", "position"};
+  static constexpr std::array kUnit = {"rad", "m/s", "m"};
+  std::string told;
+  for (std::size_t g = 0; g < kShownGroups; ++g) {
+    const double grows = after_a_second(record.slow[g]);
+    if (!(grows > 0)) continue;
+    record.layout.shown_error[g] = std::exchange(record.layout.size, record.layout.size + 3);
+    told += fmt::format("{}{} by {:.2g} {}", told.empty() ? "" : ", ", kWhat[g], grows, kUnit[g]);
+  }
+  if (told.empty()) return;
+  record.warnings.push_back(
+      {"slow_errors",
+       "what the log shows strays from the integral of its rates, forces or velocities by more "
+       "than noise, in a second " +
+           told + ": slow errors, as an estimator has them, are estimated with the flight"});
+}
+
+}  // namespace ident
