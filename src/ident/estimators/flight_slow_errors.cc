@@ -41,12 +41,13 @@ struct Stray {
   double begin = kNaN;
 
   Vector3d last = Vector3d::Constant(kNaN);
-  double steps = 0, square = 0;  // from sample to sample, of all axes
+  double steps = 0, square = 0, seconds = 0;  // from sample to sample; squares of all axes
+  double t_last = kNaN;
 
   void add(double t, const Vector3d& stray, const MatrixXd& G) {
     if (!std::isfinite(begin)) begin = t;
-    if (last.allFinite()) steps += 3, square += (stray - last).squaredNorm();
-    last = stray;
+    if (last.allFinite()) steps += 1, square += (stray - last).squaredNorm(), seconds += t - t_last;
+    last = stray, t_last = t;
     const auto at = static_cast<std::size_t>((t - begin) / kBin);
     while (bins.size() <= at) bins.push_back({0.0, Vector3d::Zero(), MatrixXd::Zero(3, nuisances)});
     bins[at].count += 1, bins[at].stray += stray, bins[at].G += G;
@@ -208,10 +209,10 @@ Array3d density_of(const FlightRecord& record, int group) {
   return sigma.square() * record.duration / std::max(samples, 1.0);
 }
 
-// Whether white noise is most of what a group changes by from row to row: then second differences next to
+// Whether white noise shows in what a group changes by from row to row: by itself second differences next to
 // each other are correlated by -2/3. Without, exact data, all sensors agree with each other's integral.
 bool is_noisy(const FlightRecord& record, int group) {
-  constexpr double kNoisy = -0.4;
+  constexpr double kNoisy = -0.1;
   double square = 0, next = 0;
   for (const FlightArc& arc : record.arcs) {
     Vector3d a = Vector3d::Constant(kNaN), b = a, last = a;
@@ -226,16 +227,14 @@ bool is_noisy(const FlightRecord& record, int group) {
   return next < kNoisy * square;
 }
 
-// Whether samples change by no more than the integral does that they are held against: by far less than their
-// own noise would change them, for they are that integral, noise and all.
-bool are_integrated(const std::vector<Stray>& strays, const FlightRecord& record, int group, int integrated) {
+// Whether samples follow the integral of the other sensor closer than its own noise would let them: they are
+// that integral, noise and all.
+bool are_integrated(const std::vector<Stray>& strays, const FlightRecord& record, int integrated) {
+  constexpr double kShare = 0.5, kFew = 100;
   if (!is_noisy(record, integrated)) return false;
-  constexpr double kShare = 0.3;
-  double steps = 0, square = 0, variance = 0;
-  for (const Stray& one : strays) steps += one.steps, square += one.square;
-  for (std::size_t k = 0; k < 3; ++k)
-    variance += std::pow(record.sigma[static_cast<std::size_t>(group) + k], 2) / 3;
-  return steps > 100 && square / steps < kShare * 2 * variance;
+  double steps = 0, square = 0, seconds = 0;
+  for (const Stray& one : strays) steps += one.steps, square += one.square, seconds += one.seconds;
+  return steps > kFew && square < kShare * density_of(record, integrated).sum() * seconds;
 }
 
 // What grows beyond `noise`, the density that is known, as a process; none unless beyond doubt.
@@ -305,7 +304,7 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
   if (logged.rates) {
     const std::vector<Stray> all = strays(of_attitude);
     found[kShownAttitude] = beyond(all, of_rates, kBeyondChance);
-    estimated = are_integrated(all, record, kAttitude, kGyro);
+    estimated = are_integrated(all, record, kGyro);
   }
   if (logged.force && logged.velocity) {
     // An attitude that drifts lets gravity in; by how much more than its density says over a second, its time
@@ -316,7 +315,7 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
       tilt += kOfDrift / 3 * std::pow(gravity * axis.sigma, 2);
     const std::vector<Stray> all = strays([&](const FlightArc& arc) { return of_velocity(arc, gravity); });
     found[kShownVelocity] = beyond(all, Array3d(of_force.mean() + tilt.mean()), kBeyondDoubt);
-    estimated = estimated || are_integrated(all, record, kVelocity, kForce);
+    estimated = estimated || are_integrated(all, record, kForce);
   }
   if (logged.velocity && logged.position)
     found[kShownPosition] = beyond(strays(of_position), density_of(record, kVelocity), kBeyondDoubt);
