@@ -199,7 +199,10 @@ Section outside_accelerations(const FlightRecord& record, const FlightFit& fit) 
         "acceleration [m/s^2]", air.v_dot,
         [](const State& x, std::size_t i) { return x.outside.v_dot[static_cast<Eigen::Index>(i)]; });
   const auto add_shown = [&](std::size_t g, const char* id, const char* title, const char* y_label) {
-    if (record.layout.shown_error[g] >= 0)
+    constexpr double kNothing = 1e-6;  // rad, m/s, m: none was found
+    const auto sigma_of = [](const ColouredNoise& axis) { return axis.sigma; };
+    if (record.layout.shown_error[g] >= 0 &&
+        std::ranges::max(fit.noise.slow[g], {}, sigma_of).sigma > kNothing)
       add(id, title, y_label, fit.noise.slow[g],
           [g](const State& x, std::size_t i) { return x.shown_error[g][static_cast<Eigen::Index>(i)]; });
   };

@@ -355,11 +355,14 @@ void add_slow_errors(FlightRecord& record) {
     told += fmt::format("{}{} by {:.2g} {}", told.empty() ? "" : ", ", kWhat[g], grows, kUnit[g]);
   }
   if (told.empty()) return;
+  const char* const so = seen.of_estimator
+                             ? "an estimator shows them, which within a second tells no more than they do"
+                             : "slow errors, as an estimator has them, are estimated with the flight";
   record.warnings.push_back(
       {"slow_errors",
-       "what the log shows strays from the integral of its rates, forces or velocities by more "
-       "than noise, in a second " +
-           told + ": slow errors, as an estimator has them, are estimated with the flight"});
+       fmt::format("what the log shows strays from the integral of its rates, forces or velocities, "
+                   "in a second {}: {}",
+                   told, so)});
 }
 
 }  // namespace ident
