@@ -298,7 +298,8 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
     return all;
   };
   FoundSlowErrors out;
-  auto& [found, estimated] = out;
+  SlowErrors& found = out.errors;
+  bool& estimated = out.of_estimator;
   if (!logged.attitude) return out;
   const Array3d of_rates = density_of(record, kGyro), of_force = density_of(record, kForce);
   if (logged.rates) {
