@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ident/estimators/flight_record_start.h"
+#include "ident/estimators/flight_strays.h"
 
 namespace ident {
 namespace {
@@ -19,147 +19,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Means are taken over bins, s; windows at both ends of a lag, and the lags, in bins.
-constexpr double kBin = 0.05;
+// Windows at both ends of a lag, and the lags, in bins.
 constexpr std::size_t kMean = 4, kShort = 5, kLong = 20;
 // What is beyond chance, in deviations (of attitude, of velocity and position), and beyond what the
 // integrated sensor is known to do: noise is not quite white.
 constexpr double kBeyondChance = 2.5, kBeyondDoubt = 4.0, kBeyondNoise = 1.3;
 constexpr double kTime = 3.0;         // s, to start from
 constexpr double kLeastShare = 0.05;  // of what all axes show, to start from
-
-// What a sensor strays from the integral of another by, and what goes with the nuisances: columns of G, of
-// which one unknown each is common to all axes. Sums over bins of time; empty ones break the series.
-struct Stray {
-  struct Bin {
-    double count = 0;
-    Vector3d stray = Vector3d::Zero();
-    MatrixXd G;
-  };
-  Index nuisances;
-  std::vector<Bin> bins;
-  double begin = kNaN;
-
-  Vector3d last = Vector3d::Constant(kNaN);
-  double steps = 0, square = 0, seconds = 0;  // from sample to sample; squares of all axes
-  double t_last = kNaN;
-
-  void add(double t, const Vector3d& stray, const MatrixXd& G) {
-    if (!std::isfinite(begin)) begin = t;
-    if (last.allFinite()) steps += 1, square += (stray - last).squaredNorm(), seconds += t - t_last;
-    last = stray, t_last = t;
-    const auto at = static_cast<std::size_t>((t - begin) / kBin);
-    while (bins.size() <= at) bins.push_back({0.0, Vector3d::Zero(), MatrixXd::Zero(3, nuisances)});
-    bins[at].count += 1, bins[at].stray += stray, bins[at].G += G;
-  }
-};
-
-std::vector<double> filled_column(const FlightArc& arc, int channel) {
-  std::vector<double> column(arc.rows());
-  for (std::size_t i = 0; i < arc.rows(); ++i)
-    column[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-  return interpolated(arc.t, column);
-}
-
-// Three channels by row, filled between their samples; nothing without any.
-class Filled {
- public:
-  Filled(const FlightArc& arc, int group) {
-    for (int k = 0; k < 3; ++k) columns_[static_cast<std::size_t>(k)] = filled_column(arc, group + k);
-  }
-  bool empty() const { return columns_[0].empty() || columns_[1].empty() || columns_[2].empty(); }
-  Vector3d operator[](std::size_t i) const { return {columns_[0][i], columns_[1][i], columns_[2][i]}; }
-
- private:
-  std::array<std::vector<double>, 3> columns_;
-};
-
-bool sampled(const FlightArc& arc, std::size_t i, int group) {
-  return std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(group)]);
-}
-
-Vector3d measured(const FlightArc& arc, std::size_t i, int group) {
-  const double* y = arc.y.data() + i * kChannels + group;
-  return {y[0], y[1], y[2]};
-}
-
-// Of the attitude from rates. Nuisances: a matrix over the angle (mounting, scale), one over the rate
-// (delay), and a bias.
-Stray of_attitude(const FlightArc& arc) {
-  Stray out{21};
-  const Filled rate(arc, kGyro);
-  if (rate.empty()) return out;
-  const Vec4<double> still(1, 0, 0, 0);
-  Vec4<double> before = still, turned = still;  // at the last sample, and since then by the rates
-  Vector3d stray = Vector3d::Zero(), angle = stray;
-  bool begun = false;
-  for (std::size_t i = 0; i < arc.rows(); ++i) {
-    if (i > 0) {
-      const Vector3d step = 0.5 * (arc.t[i] - arc.t[i - 1]) * (rate[i] + rate[i - 1]);
-      turned = quaternion_product(turned, quaternion_from_rotation_vector(step)), angle += step;
-    }
-    if (!sampled(arc, i, kAttitude)) continue;
-    const Vec4<double> q(arc.q[4 * i], arc.q[4 * i + 1], arc.q[4 * i + 2], arc.q[4 * i + 3]);
-    if (begun)
-      stray += rotation_vector_from_quaternion(quaternion_product(conjugate(before), q)) -
-               rotation_vector_from_quaternion(turned);
-    before = q, turned = still, begun = true;
-    MatrixXd G = MatrixXd::Zero(3, out.nuisances);
-    for (Index axis = 0; axis < 3; ++axis)
-      G.row(axis).segment<7>(7 * axis) << angle.transpose(), rate[i].transpose(), arc.t[i] - arc.t[0];
-    out.add(arc.t[i], stray, G);
-  }
-  return out;
-}
-
-Eigen::Matrix3d cross_matrix(const Vector3d& v) {
-  return Eigen::Matrix3d{{0, -v[2], v[1]}, {v[2], 0, -v[0]}, {-v[1], v[0], 0}};
-}
-
-// Of the velocity from specific force. Nuisances: bias, mounting and scale of the accelerometer, its place,
-// delays of attitude and velocity, and gravity or an attitude that is off by a constant.
-Stray of_velocity(const FlightArc& arc, double gravity) {
-  Stray out{17};
-  const Filled force(arc, kForce);
-  if (force.empty()) return out;
-  Vector3d stray = Vector3d::Zero();
-  Eigen::Matrix<double, 3, 10> turned = Eigen::Matrix<double, 3, 10>::Zero();  // by the accelerometer's own
-  Eigen::Matrix<double, 3, 10> slope_before;
-  Vector3d pull_before;
-  for (std::size_t i = 0; i < arc.rows(); ++i) {
-    const Eigen::Matrix3d R_WB = rotation(arc.start[i].body.q_WB);
-    const Vector3d f = force[i], pull = R_WB * f + Vector3d(0, 0, gravity);
-    Eigen::Matrix<double, 3, 10> slope;
-    slope << R_WB, R_WB * cross_matrix(f), R_WB * f.asDiagonal(), R_WB * cross(arc.start[i].body.w_B, f);
-    if (i > 0) {
-      const double h = 0.5 * (arc.t[i] - arc.t[i - 1]);
-      stray -= h * (pull + pull_before), turned += h * (slope + slope_before);
-    }
-    pull_before = pull, slope_before = slope;
-    if (!sampled(arc, i, kVelocity)) continue;
-    MatrixXd G(3, out.nuisances);
-    G << turned, R_WB * cross_matrix(arc.start[i].body.w_B), pull,
-        (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
-    out.add(arc.t[i], measured(arc, i, kVelocity) + stray, G);
-  }
-  return out;
-}
-
-// Of the position from velocity. Nuisances: a delay, the sensor's place, a bias.
-Stray of_position(const FlightArc& arc) {
-  Stray out{7};
-  const Filled velocity(arc, kVelocity);
-  if (velocity.empty()) return out;
-  Vector3d path = Vector3d::Zero();
-  for (std::size_t i = 0; i < arc.rows(); ++i) {
-    if (i > 0) path += 0.5 * (arc.t[i] - arc.t[i - 1]) * (velocity[i] + velocity[i - 1]);
-    if (!sampled(arc, i, kPosition)) continue;
-    MatrixXd G(3, out.nuisances);
-    G << velocity[i], rotation(arc.start[i].body.q_WB), (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
-    out.add(arc.t[i], measured(arc, i, kPosition) - path, G);
-  }
-  return out;
-}
 
 // Mean square by axis of what is left of a stray over a lag once nuisances are taken out.
 struct MeanSquare {
@@ -203,7 +69,7 @@ struct MeanSquare {
 Array3d density_of(const FlightRecord& record, int group) {
   double samples = 0;
   for (const FlightArc& arc : record.arcs)
-    for (std::size_t i = 0; i < arc.rows(); ++i) samples += sampled(arc, i, group);
+    for (std::size_t i = 0; i < arc.rows(); ++i) samples += std::isfinite(group_at(arc, i, group)[0]);
   const auto g = static_cast<std::size_t>(group);
   const Array3d sigma(record.sigma[g], record.sigma[g + 1], record.sigma[g + 2]);
   return sigma.square() * record.duration / std::max(samples, 1.0);
@@ -217,7 +83,7 @@ bool is_noisy(const FlightRecord& record, int group) {
   for (const FlightArc& arc : record.arcs) {
     Vector3d a = Vector3d::Constant(kNaN), b = a, last = a;
     for (std::size_t i = 0; i < arc.rows(); ++i) {
-      const Vector3d y = measured(arc, i, group);
+      const Vector3d y = group_at(arc, i, group);
       if (!y.allFinite()) continue;
       const Vector3d second = y - 2 * b + a;
       if (last.allFinite()) square += last.squaredNorm(), next += last.dot(second);
@@ -243,7 +109,7 @@ std::array<ColouredNoise, 3> beyond(const std::vector<Stray>& strays, const Arra
   MeanSquare near, far;
   for (const Stray& one : strays) near.add(one, kShort), far.add(one, kLong);
   if (!(far.degrees > 0) || !(near.degrees > 0)) return {};
-  constexpr double kBetween = static_cast<double>(kLong - kShort) * kBin;
+  constexpr double kBetween = static_cast<double>(kLong - kShort) * kStrayBin;
   const Array3d grown = (far.mean() - near.mean()) / kBetween;
   const double chance = std::sqrt((far.variance() + near.variance()).sum()) / kBetween;
   const double more = (grown - noise).sum();
@@ -303,7 +169,7 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
   if (!logged.attitude) return out;
   const Array3d of_rates = density_of(record, kGyro), of_force = density_of(record, kForce);
   if (logged.rates) {
-    const std::vector<Stray> all = strays(of_attitude);
+    const std::vector<Stray> all = strays(stray_of_attitude);
     found[kShownAttitude] = beyond(all, of_rates, kBeyondChance);
     estimated = are_integrated(all, record, kGyro);
   }
@@ -314,12 +180,13 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
     Array3d tilt = gravity * gravity * density_of(record, kAttitude);
     for (const ColouredNoise& axis : found[kShownAttitude])
       tilt += kOfDrift / 3 * std::pow(gravity * axis.sigma, 2);
-    const std::vector<Stray> all = strays([&](const FlightArc& arc) { return of_velocity(arc, gravity); });
+    const std::vector<Stray> all =
+        strays([&](const FlightArc& arc) { return stray_of_velocity(arc, gravity); });
     found[kShownVelocity] = beyond(all, Array3d(of_force.mean() + tilt.mean()), kBeyondDoubt);
     estimated = estimated || are_integrated(all, record, kForce);
   }
   if (logged.velocity && logged.position)
-    found[kShownPosition] = beyond(strays(of_position), density_of(record, kVelocity), kBeyondDoubt);
+    found[kShownPosition] = beyond(strays(stray_of_position), density_of(record, kVelocity), kBeyondDoubt);
   // An autopilot's estimator shows all of it.
   const auto strays_by = [&](ShownGroup group) { return found[group][0].sigma > 0; };
   estimated =

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_strays.h"
 
 namespace ident {
 namespace {
@@ -26,11 +27,6 @@ struct Line {
   void add(double at, const Array3d& value) { n += 1, t += at, tt += at * at, y += value, ty += at * value; }
   Array3d slope() const { return (ty - y * (t / n)) / (tt - t * t / n); }
 };
-
-Array3d group_at(const FlightArc& arc, std::size_t i, int group) {
-  const double* y = arc.y.data() + i * kChannels + group;
-  return {y[0], y[1], y[2]};
-}
 
 // What integrated velocities gain on positions in each block, m/s.
 void add_blocks(const FlightArc& arc, double seconds, std::vector<Array3d>& blocks) {
