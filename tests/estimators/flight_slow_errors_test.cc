@@ -150,5 +150,19 @@ TEST(SlowErrors, OfAnAutopilotsFilterAreNoGap) {
   EXPECT_EQ(testing::verdict_of(model, log)["status"], "none") << testing::verdict_of(model, log);
 }
 
+// By the rates that its attitude integrates, and without them by the forces that its velocities do.
+TEST(SlowErrors, AFilterIsToldFromSensors) {
+  const Vehicle model = testing::published_vehicle();
+  FlightLog log = flown(model, 8).log;
+  FlightRecord sensors = record_of(model, log);
+  EXPECT_FALSE(slow_errors(sensors).of_estimator);
+  testing::estimate(log, model.g);
+  FlightRecord filter = record_of(model, log);
+  EXPECT_TRUE(slow_errors(filter).of_estimator);
+  sensors.signals.rates = filter.signals.rates = false;
+  EXPECT_FALSE(slow_errors(sensors).of_estimator);
+  EXPECT_TRUE(slow_errors(filter).of_estimator);
+}
+
 }  // namespace
 }  // namespace ident
