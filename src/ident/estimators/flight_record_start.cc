@@ -100,6 +100,50 @@ void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
   }
 }
 
+// What moves, by what was measured of it; `sigma` by channel.
+void set_body_start(FlightArc& arc, const std::array<double, kChannels>& sigma) {
+  const std::size_t rows = arc.rows();
+  const auto column = [&](int channel) {
+    std::vector<double> c(rows);
+    for (std::size_t i = 0; i < rows; ++i) c[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+    return interpolated(arc.t, c);
+  };
+  std::array<std::vector<double>, 3> w, v, x;
+  std::array<std::vector<double>, 4> q;
+  for (int k = 0; k < 3; ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    w[c] = column(kGyro + k), v[c] = column(kVelocity + k),
+    x[c] = averaged(arc.t, column(kPosition + k), sigma[kPosition + c]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::vector<double> c(rows);
+    for (std::size_t i = 0; i < rows; ++i) c[i] = arc.q[4 * i + k];
+    q[k] = interpolated(arc.t, c);
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    BodyState<double>& b = arc.start[i].body;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      b.w_B[at] = filled(w[k], i, 0.0);
+      b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
+      b.v_W[at] = filled(v[k], i, 0.0);
+      if (v[k].empty() && !x[k].empty()) {
+        const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
+        b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
+      }
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
+    b.q_WB.normalize();
+    if (w[0].empty() && !q[0].empty() && i + 1 < rows) {
+      const Vec4<double> a(q[0][i], q[1][i], q[2][i], q[3][i]),
+          e(q[0][i + 1], q[1][i + 1], q[2][i + 1], q[3][i + 1]);
+      const Vec4<double> d = quaternion_product(conjugate(a), e);
+      for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<double> interpolated(const std::vector<double>& t, const std::vector<double>& column) {
@@ -136,50 +180,13 @@ void set_noise(FlightRecord& record) {
 }
 
 void set_start(FlightRecord& record, std::span<const double> p) {
-  in_parallel(record.arcs.size(), [&](std::size_t number) {
-    FlightArc& arc = record.arcs[number];
-    const std::size_t rows = arc.rows();
-    arc.start.resize(rows);
-    const auto column = [&](int channel) {
-      std::vector<double> c(rows);
-      for (std::size_t i = 0; i < rows; ++i) c[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-      return interpolated(arc.t, c);
-    };
-    std::array<std::vector<double>, 3> w, v, x;
-    std::array<std::vector<double>, 4> q;
-    for (int k = 0; k < 3; ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      w[c] = column(kGyro + k), v[c] = column(kVelocity + k),
-      x[c] = averaged(arc.t, column(kPosition + k), record.sigma[kPosition + c]);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::vector<double> c(rows);
-      for (std::size_t i = 0; i < rows; ++i) c[i] = arc.q[4 * i + k];
-      q[k] = interpolated(arc.t, c);
-    }
-    for (std::size_t i = 0; i < rows; ++i) {
-      BodyState<double>& b = arc.start[i].body;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = static_cast<Eigen::Index>(k);
-        b.w_B[at] = filled(w[k], i, 0.0);
-        b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
-        b.v_W[at] = filled(v[k], i, 0.0);
-        if (v[k].empty() && !x[k].empty()) {
-          const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
-          b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
-        }
-      }
-      for (std::size_t k = 0; k < 4; ++k)
-        b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
-      b.q_WB.normalize();
-      if (w[0].empty() && !q[0].empty() && i + 1 < rows) {
-        const Vec4<double> a(q[0][i], q[1][i], q[2][i], q[3][i]),
-            e(q[0][i + 1], q[1][i + 1], q[2][i + 1], q[3][i + 1]);
-        const Vec4<double> d = quaternion_product(conjugate(a), e);
-        for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
-      }
-    }
-    if (arc.inputs->commanded()) set_motor_start(arc, *record.vehicle, p);
+  for (FlightArc& arc : record.arcs) arc.start.resize(arc.rows());
+  in_parallel(2 * record.arcs.size(), [&](std::size_t number) {
+    FlightArc& arc = record.arcs[number / 2];
+    if (number % 2 == 0)
+      set_body_start(arc, record.sigma);
+    else if (arc.inputs->commanded())
+      set_motor_start(arc, *record.vehicle, p);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/core/parallel.h"
 #include "ident/estimators/flight_strays.h"
 
 namespace ident {
@@ -103,6 +104,23 @@ bool are_integrated(const std::vector<Stray>& strays, const FlightRecord& record
   return steps > kFew && square < kShare * density_of(record, integrated).sum() * seconds;
 }
 
+// Of each arc, of what can be integrated.
+std::array<std::vector<Stray>, kShownGroups> all_strays(const FlightRecord& record) {
+  const Signals& logged = record.signals;
+  const double gravity = record.vehicle->g;
+  std::array<std::vector<Stray>, kShownGroups> all;
+  in_parallel(kShownGroups, [&](std::size_t group) {
+    for (const FlightArc& arc : record.arcs) {
+      if (group == kShownAttitude && logged.rates) all[group].push_back(stray_of_attitude(arc));
+      if (group == kShownVelocity && logged.force && logged.velocity)
+        all[group].push_back(stray_of_velocity(arc, gravity));
+      if (group == kShownPosition && logged.velocity && logged.position)
+        all[group].push_back(stray_of_position(arc));
+    }
+  });
+  return all;
+}
+
 // What grows beyond `noise`, the density that is known, as a process; none unless beyond doubt.
 std::array<ColouredNoise, 3> beyond(const std::vector<Stray>& strays, const Array3d& noise,
                                     double deviations) {
@@ -158,18 +176,14 @@ void hide_what_is_integrated(FlightRecord& record) {
 FoundSlowErrors slow_errors(const FlightRecord& record) {
   const Signals& logged = record.signals;
   const double gravity = record.vehicle->g;
-  const auto strays = [&](auto&& of) {
-    std::vector<Stray> all;
-    for (const FlightArc& arc : record.arcs) all.push_back(of(arc));
-    return all;
-  };
   FoundSlowErrors out;
   SlowErrors& found = out.errors;
   bool& estimated = out.of_estimator;
   if (!logged.attitude) return out;
   const Array3d of_rates = density_of(record, kGyro), of_force = density_of(record, kForce);
+  const auto strays = all_strays(record);
   if (logged.rates) {
-    const std::vector<Stray> all = strays(stray_of_attitude);
+    const std::vector<Stray>& all = strays[kShownAttitude];
     found[kShownAttitude] = beyond(all, of_rates, kBeyondChance);
     estimated = are_integrated(all, record, kGyro);
   }
@@ -180,13 +194,12 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
     Array3d tilt = gravity * gravity * density_of(record, kAttitude);
     for (const ColouredNoise& axis : found[kShownAttitude])
       tilt += kOfDrift / 3 * std::pow(gravity * axis.sigma, 2);
-    const std::vector<Stray> all =
-        strays([&](const FlightArc& arc) { return stray_of_velocity(arc, gravity); });
+    const std::vector<Stray>& all = strays[kShownVelocity];
     found[kShownVelocity] = beyond(all, Array3d(of_force.mean() + tilt.mean()), kBeyondDoubt);
     estimated = estimated || are_integrated(all, record, kForce);
   }
   if (logged.velocity && logged.position)
-    found[kShownPosition] = beyond(strays(stray_of_position), density_of(record, kVelocity), kBeyondDoubt);
+    found[kShownPosition] = beyond(strays[kShownPosition], density_of(record, kVelocity), kBeyondDoubt);
   // An autopilot's estimator shows all of it.
   const auto strays_by = [&](ShownGroup group) { return found[group][0].sigma > 0; };
   estimated =

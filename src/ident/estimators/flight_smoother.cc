@@ -186,12 +186,27 @@ void FlightSmoother::accept() {
 }
 
 void FlightSmoother::settle(const VectorXd& u, int rounds, double enough) {
-  double least = std::numeric_limits<double>::infinity();
+  settle_until(u, rounds, enough, [](double fall, double) { return fall; });
+}
+
+void FlightSmoother::settle_ends(const VectorXd& u, int rounds, double enough) {
+  settle_until(u, rounds, enough, [](double fall, double before) {
+    // Falls that go on to shrink as the last one did.
+    const double shrinks = fall / before;
+    return shrinks < 1 ? fall * shrinks / (1 - shrinks) : fall;
+  });
+}
+
+// Until what is `left` of the fall, by that of the last round and of the one before it, is little.
+void FlightSmoother::settle_until(const VectorXd& u, int rounds, double enough,
+                                  const std::function<double(double fall, double before)>& left) {
+  double least = std::numeric_limits<double>::infinity(), before = 0;
   int in_vain = 0;  // rounds one after the other
   for (int i = 0; i < rounds && in_vain < kInVain; ++i) {
     const ReducedSystem& system = linearize(u);
     accept();
-    if (system.fall < enough * system.cost) return;
+    if (left(system.fall, before) < enough * system.cost) return;
+    before = system.fall;
     in_vain = system.cost < (1 - enough) * least ? 0 : in_vain + 1;
     least = std::min(least, system.cost);
   }

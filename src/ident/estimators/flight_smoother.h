@@ -80,6 +80,8 @@ class FlightSmoother {
   /// Moves the states to their best for u (`rounds` Gauss-Newton steps, fewer where the next one would change
   /// less than that share of the cost, or the last ones did) and accepts.
   void settle(const Eigen::VectorXd& u, int rounds = 2, double enough = 1e-4);
+  /// The same for arc_ends() only, which take the last step themselves.
+  void settle_ends(const Eigen::VectorXd& u, int rounds, double enough);
 
   /// Takes over states, from a smoother with the same chunks.
   void set_states(const std::vector<FlightState<double>>& states) {
@@ -213,6 +215,8 @@ class FlightSmoother {
   void evaluate(const Eigen::VectorXd& u, bool jacobian, bool leverage);
   void evaluate(const Eigen::VectorXd& u, bool jacobian, bool leverage,
                 const std::vector<std::size_t>& chunks);
+  void settle_until(const Eigen::VectorXd& u, int rounds, double enough,
+                    const std::function<double(double fall, double before)>& left);
   void shorten_wild_steps(const Eigen::VectorXd& u, bool leverage);
   void eliminate(const Eigen::VectorXd* held = nullptr);
   Eigen::VectorXd defect(std::size_t k) const;

@@ -54,7 +54,7 @@ FlightWindows::FlightWindows(const FlightRecord& record, const Theta& theta, con
   smoother_ = std::make_unique<FlightSmoother>(
       past_, *fixed_, noise, std::clamp(chunk_for(record, noise), 0.04, 0.4), options.threads);
   smoother_->set_steps(steps_);
-  smoother_->settle(Eigen::VectorXd(0), kRounds, kAtTheirBest);
+  smoother_->settle_ends(Eigen::VectorXd(0), kRounds, kAtTheirBest);
   ends_ = smoother_->arc_ends();
 }
 
