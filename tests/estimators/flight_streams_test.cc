@@ -101,6 +101,38 @@ TEST(FlightStreams, ALateStreamIsFoundAndMoved) {
   EXPECT_GE(told, 10);
 }
 
+// An autopilot filters what it logs of its IMU.
+TEST(FlightStreams, FilteredRatesAreReadEarlierAndTheForceWithThem) {
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Vehicle vehicle = random_vehicle(seed);
+    FlightLog log = simulated(vehicle, "mixed", seed);
+    const double late = 2e-3 + 5e-4 * static_cast<double>(seed % 5);
+    for (auto* sensor : {&log.w_B, &log.f_B})
+      for (auto& column : *sensor) {
+        double shown = column[0];
+        for (double& value : column) value = shown += (1 - std::exp(-1 / (kRate * late))) * (value - shown);
+      }
+    // Held from row to row, a first-order lag is late by half a row less.
+    const double lag = 1 / (kRate * (1 - std::exp(-1 / (kRate * late)))) - 1 / kRate;
+    const std::vector<FlightLog> logs{log};
+    const FlightRecord record = record_of(vehicle, logs);
+    const StreamOffset rates = stream_offsets(record, vehicle.g).rates;
+    if (!std::isfinite(rates.std) || 5 * rates.std > lag || lag < 1.2e-3) continue;
+    ++told;
+    EXPECT_NEAR(rates.seconds, lag, 4e-4 + 3 * rates.std) << seed << " +- " << rates.std;
+    std::vector<Warning> warnings;
+    const std::vector<FlightLog> aligned = aligned_streams(record, logs, vehicle.g, warnings);
+    ASSERT_EQ(aligned.size(), 1) << seed;
+    ASSERT_EQ(warnings.size(), 1) << seed;
+    EXPECT_NE(warnings[0].message.find("with the specific force"), std::string::npos) << warnings[0].message;
+    EXPECT_EQ(aligned[0].q_WB[1][100], log.q_WB[1][100]);
+    EXPECT_NE(aligned[0].f_B[2][100], log.f_B[2][100]);
+    EXPECT_LT(std::abs(stream_offsets(record_of(vehicle, aligned), vehicle.g).rates.seconds), 6e-4) << seed;
+  }
+  EXPECT_GE(told, 4);
+}
+
 TEST(FlightStreams, ARealAccelerometerIsLaterThanMotionCapture) {
   IDENT_NEEDS_REAL_DATA(folder);
   Vehicle vehicle;

@@ -11,14 +11,18 @@ namespace {
 
 // A fit whose smoothed accelerations are steady gusts, with a burst of `burst` m/s^2 downwards over two
 // pieces.
-std::vector<Burst> found_with(double burst, double* at = nullptr) {
+std::vector<Burst> found_with(double burst, double* at = nullptr, bool hole = false) {
   const Vehicle vehicle = testing::published_vehicle();
-  const FlightRecord record = testing::hover_record(vehicle, vehicle, 20.0);
+  FlightRecord record = testing::hover_record(vehicle, vehicle, 20.0);
   const std::vector<double> p = parameter_vector(vehicle);
   const Theta theta(p, {}, 1, true);
   FlightFit fit;
   fit.noise = initial_noise(record);
   fit.smoother = std::make_shared<FlightSmoother>(record, theta, fit.noise, 0.1);
+  if (hole) {  // rows are missing in piece 90
+    std::vector<double>& t = record.arcs[0].t;
+    for (std::size_t i = fit.smoother->chunks()[90].begin + 3; i < t.size(); ++i) t[i] += 0.02;
+  }
   std::vector<FlightState<double>> states = fit.smoother->states();
   if (at) *at = record.arcs[0].t[fit.smoother->chunks()[90].begin];
   Random random(7);
@@ -40,6 +44,12 @@ TEST(Bursts, AJumpToAndFroIsNamedWithItsChannelAndTime) {
   EXPECT_EQ(found[0].channel, "Fz");
   EXPECT_EQ(found[0].count, 2);
   EXPECT_NEAR(found[0].t, at, 0.3);  // its onset or its end
+}
+
+// Commands of rows that are missing are not known either.
+TEST(Bursts, WhatMotorsDidWhereRowsAreMissingIsNone) {
+  EXPECT_EQ(found_with(20.0).size(), 1u);
+  EXPECT_TRUE(found_with(20.0, nullptr, true).empty());
 }
 
 // Pushed `times` what gusts and the error of measured speeds make of a jump along one axis, which are the

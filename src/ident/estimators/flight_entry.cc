@@ -12,6 +12,7 @@
 #include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_streams.h"
+#include "ident/estimators/flight_whitening.h"
 
 namespace ident {
 namespace {
@@ -99,7 +100,10 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
   entry.p = starting_constants(vehicle, logs, result.warnings);
   entry.record = make_flight_record(vehicle, entry.p, logs);
   const std::vector<FlightLog> aligned = aligned_streams(entry.record, logs, vehicle.g, result.warnings);
-  if (!aligned.empty()) entry.record = make_flight_record(vehicle, entry.p, aligned);
+  const std::vector<FlightLog> white =
+      whitened_sensors(aligned.empty() ? logs : std::span<const FlightLog>(aligned), result.warnings);
+  if (const auto& moved = white.empty() ? aligned : white; !moved.empty())
+    entry.record = make_flight_record(vehicle, entry.p, moved);
   for (const FlightLog& log : logs) {
     result.inputs.push_back(log.file);
     tell(log.warnings);

@@ -19,9 +19,12 @@ constexpr double kShortTime = 0.03;   ///< s before and after over which an acce
 constexpr int kParts = 8;             ///< of the flight, for the spread
 constexpr std::size_t kFewest = 200;  ///< windows to judge
 constexpr double kAlike = 0.8;        ///< correlation of an axis that says anything
-constexpr double kBeyondDoubt = 6.0;  ///< standard deviations
-constexpr double kShortest = 8e-3;    ///< s: turns about a lever arm look like some ms
-constexpr double kOfAnInterval = 0.3;
+constexpr double kBeyondDoubt = 5.0;  ///< standard deviations
+/// s of rates and of specific force that matter: turns about a lever arm look like some ms of the force.
+constexpr double kShortestOfRates = 1e-3, kShortestOfForce = 8e-3;
+constexpr double kOfAnInterval = 0.1;
+constexpr double kLongestFilter =
+    8e-3;  ///< s by which an autopilot's filters make the sensors of its IMU late
 
 std::size_t half_width(const FlightArc& arc) {
   const double interval = (arc.t.back() - arc.t.front()) / static_cast<double>(arc.rows() - 1);
@@ -75,23 +78,32 @@ double explained(const Seen& seen, const Told& told, Eigen::Index axis) {
   return x[axis] > 0 ? std::clamp(x.dot(c) / yy, 0.0, 1 - 1e-12) : 0.0;
 }
 
-/// Log-likelihood of a shift, of regressions on the axes that agree.
-double likelihood(const SeenParts& seen, const ToldParts& told, const std::vector<bool>& alike, int without) {
-  double sum = 0;
+/// Shares of what is told by a shift that regressions on the axes seen leave, of the axes that agree.
+std::vector<double> left(const SeenParts& seen, const ToldParts& told, const std::vector<bool>& alike,
+                         int without) {
+  std::vector<double> out;
   const Seen all = sum_of(seen, without);
   for (std::size_t k = 0; k < told.size(); ++k)
-    if (alike[k])
-      sum -=
-          0.5 * all.n * std::log(1 - explained(all, sum_of(told[k], without), static_cast<Eigen::Index>(k)));
-  return sum;
+    if (alike[k]) out.push_back(1 - explained(all, sum_of(told[k], without), static_cast<Eigen::Index>(k)));
+  return out;
 }
 
-/// The top of a parabola through the highest value and its neighbours, in steps; NaN at an end.
-double top_of(const std::vector<double>& y) {
-  const auto i = static_cast<std::size_t>(std::ranges::max_element(y) - y.begin());
-  if (i == 0 || i + 1 >= y.size()) return kNaN;
-  const double bend = y[i - 1] - 2 * y[i] + y[i + 1];
-  return static_cast<double>(i) + (bend < 0 ? 0.5 * (y[i - 1] - y[i + 1]) / bend : 0.0);
+/// Where the least is left, in shifts; NaN at an end. A small shift leaves a square of it: a parabola through
+/// the likeliest shift and its neighbours, of the axes' shares in units of what it leaves of each.
+double likeliest(const std::vector<std::vector<double>>& shifts) {
+  const auto surprise = [](const std::vector<double>& shares) {
+    double sum = 0;
+    for (const double share : shares) sum += std::log(share);
+    return sum;
+  };
+  const auto i = static_cast<std::size_t>(std::ranges::min_element(shifts, {}, surprise) - shifts.begin());
+  if (i == 0 || i + 1 >= shifts.size()) return kNaN;
+  double slope = 0, bend = 0;
+  for (std::size_t k = 0; k < shifts[i].size(); ++k) {
+    slope += 0.5 * (shifts[i + 1][k] - shifts[i - 1][k]) / shifts[i][k];
+    bend += (shifts[i + 1][k] - 2 * shifts[i][k] + shifts[i - 1][k]) / shifts[i][k];
+  }
+  return static_cast<double>(i) - (bend > 0 ? slope / bend : 0.0);
 }
 
 /// The running integral of the size of the acceleration less gravity, as the velocity shows it, m/s. Sizes do
@@ -177,14 +189,29 @@ StreamOffset offset_of(const std::vector<Sides>& arcs, double interval) {
         alike[k] = true;
   if (std::ranges::none_of(alike, [](bool x) { return x; })) return {};
   const auto peak = [&](int without) {
-    std::vector<double> y;
-    for (const ToldParts& axes : shifts) y.push_back(likelihood(seen, axes, alike, without));
-    return (top_of(y) - static_cast<double>(most)) * static_cast<double>(step) * interval;
+    std::vector<std::vector<double>> shares;
+    for (const ToldParts& axes : shifts) shares.push_back(left(seen, axes, alike, without));
+    return (likeliest(shares) - static_cast<double>(most)) * static_cast<double>(step) * interval;
   };
   double square = 0;  // jackknife
   const double all = peak(-1);
   for (int part = 0; part < kParts; ++part) square += std::pow(peak(part) - all, 2);
   return {all, std::sqrt(square * (kParts - 1.0) / kParts)};
+}
+
+/// The cubic through four samples; a line through the middle two where the others are far off, as at a gap.
+double interpolated_at(double when, const double* t, const double* y) {
+  const double h = t[2] - t[1], share = (when - t[1]) / h;
+  constexpr double kEven = 1.5;
+  if (!(t[1] - t[0] < kEven * h) || !(t[3] - t[2] < kEven * h)) return y[1] + share * (y[2] - y[1]);
+  double sum = 0;
+  for (int i = 0; i < 4; ++i) {
+    double weight = y[i];
+    for (int k = 0; k < 4; ++k)
+      if (k != i) weight *= (when - t[k]) / (t[i] - t[k]);
+    sum += weight;
+  }
+  return sum;
 }
 
 /// Samples of a column as they were `seconds` later, at the rows that had one.
@@ -197,9 +224,8 @@ void read_later(const std::vector<double>& t, std::vector<double>& column, doubl
     const double when = t[i] + seconds;
     const auto after = static_cast<std::size_t>(std::ranges::upper_bound(at, when) - at.begin());
     column[i] = kNaN;
-    if (after == 0 || after == at.size()) continue;
-    const double share = (when - at[after - 1]) / (at[after] - at[after - 1]);
-    column[i] = y[after - 1] + share * (y[after] - y[after - 1]);
+    if (after < 2 || after + 1 >= at.size()) continue;
+    column[i] = interpolated_at(when, &at[after - 2], &y[after - 2]);
   }
 }
 
@@ -221,9 +247,9 @@ void read_attitude_later(FlightLog& log, double seconds) {
 
 }  // namespace
 
-bool StreamOffset::matters(double interval) const {
+bool StreamOffset::matters(double interval, double shortest) const {
   return std::abs(seconds) > kBeyondDoubt * std &&
-         std::abs(seconds) > std::max(kShortest, kOfAnInterval * interval);
+         std::abs(seconds) > std::max(shortest, kOfAnInterval * interval);
 }
 
 StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
@@ -244,27 +270,32 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
 
 std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
                                        double gravity, std::vector<Warning>& warnings) {
-  const StreamOffsets found = stream_offsets(record, gravity);
-  const StreamOffset motion{-found.rates.seconds, found.rates.std};
-  StreamOffset force = found.force;
-  const bool move_motion = motion.matters(record.interval);
-  if (move_motion) force.seconds += motion.seconds;
-  const bool move_force = force.matters(record.interval);
-  if (!move_motion && !move_force) return {};
+  const auto [rates, force_alone] = stream_offsets(record, gravity);
+  const bool move_turns = rates.matters(record.interval, kShortestOfRates);
+  // Late rates were filtered, and so was the specific force; what is later than that came by another way.
+  const bool filtered = move_turns && rates.seconds > 0 && rates.seconds < kLongestFilter;
+  const bool move_motion = move_turns && !filtered;
+  StreamOffset force = force_alone;
+  if (move_turns) force.seconds -= rates.seconds;
+  const bool move_force = force.matters(record.interval, kShortestOfForce);
+  if (!move_turns && !move_force) return {};
   std::vector<FlightLog> out(logs.begin(), logs.end());
-  const auto tell = [&](const char* what, const char* against, const StreamOffset& o) {
+  const auto tell = [&](const char* what, const char* against, const StreamOffset& o, const char* moved) {
     warnings.push_back(
-        {"stream_offset",
-         fmt::format("{} the same motion {} ms (± {}) {} than {}: read that much {}", what,
-                     format_number(1e3 * std::abs(o.seconds), 2), format_number(1e3 * o.std, 1),
-                     o.seconds > 0 ? "later" : "earlier", against, o.seconds > 0 ? "earlier" : "later")});
+        {"stream_offset", fmt::format("{} the same motion {} ms (± {}) {} than {}: {}read that much {}", what,
+                                      format_number(1e3 * std::abs(o.seconds), 2),
+                                      format_number(1e3 * o.std, 1), o.seconds > 0 ? "later" : "earlier",
+                                      against, moved, o.seconds > 0 ? "earlier" : "later")});
   };
   const auto later = [](FlightLog& log, auto& columns, double seconds) {
     for (auto& column : columns) read_later(log.t, column, seconds);
   };
-  if (move_motion) tell("attitude, velocity and position show", "the rates", motion);
-  if (move_force) tell("the specific force shows", "the velocity", force);
+  const StreamOffset motion{-rates.seconds, rates.std};
+  if (filtered) tell("the rates show", "the attitude", rates, "as filtered, with the specific force, ");
+  if (move_motion) tell("attitude, velocity and position show", "the rates", motion, "");
+  if (move_force) tell("the specific force shows", "the velocity", force, "");
   for (FlightLog& log : out) {
+    if (filtered) later(log, log.w_B, rates.seconds), later(log, log.f_B, rates.seconds);
     if (move_motion) {
       read_attitude_later(log, motion.seconds);
       later(log, log.v_W, motion.seconds), later(log, log.x_W, motion.seconds);

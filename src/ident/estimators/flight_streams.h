@@ -12,8 +12,8 @@ namespace ident {
 struct StreamOffset {
   double seconds = 0.0, std = kNaN;  ///< NaN: the log cannot tell
 
-  /// Beyond doubt, and enough to matter at this interval between rows.
-  bool matters(double interval) const;
+  /// Beyond doubt, at least so short, s, and enough to matter at this interval between rows.
+  bool matters(double interval, double shortest) const;
 };
 
 /// The rates against the attitude, and the specific force against the velocity, over all logs: what comes by
@@ -23,9 +23,9 @@ struct StreamOffsets {
 };
 StreamOffsets stream_offsets(const FlightRecord& record, double gravity);
 
-/// The logs with their streams at one time: attitude, velocity and position are moved to the rates, then the
-/// specific force to them, where an offset matters; each move is a warning `stream_offset`. Empty where
-/// nothing has to be moved.
+/// The logs with their streams at one time: rates and specific force that are late as by a filter are moved
+/// to the attitude, or else attitude, velocity and position to the rates, then the specific force to them,
+/// where an offset matters; each move is a warning `stream_offset`. Empty where nothing has to be moved.
 std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
                                        double gravity, std::vector<Warning>& warnings);
 

@@ -19,10 +19,10 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted,
                               const std::function<bool(const std::string&)>& excused);
 
 /// The first of the reasons that holds, as the end of a sentence; empty if nothing does: most of the gap
-/// remains, a regression predicts what is left, a bench value is contradicted, a constant of the vehicle
-/// changes in flight or from one channel to another, a weak cause stands beside what swings or strikes, more
-/// would have to be wrong at once than go wrong, or the causes are parts of a
-/// likelier one that was not tried.
+/// remains, a cause has an impossible size, a regression predicts what is left, a bench value is
+/// contradicted, a constant of the vehicle changes in flight or from one channel to another, a weak cause
+/// stands beside what swings or strikes, more would have to be wrong at once than go wrong, or the causes are
+/// parts of a likelier one that was not tried.
 std::string against_naming(const SearchResult& search, const GapClosed& gap, const Rival& rival,
                            const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
                            const std::vector<Parameter>& fitted);

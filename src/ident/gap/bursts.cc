@@ -38,6 +38,15 @@ void make_alike(std::vector<Jump>& jumps, bool moments) {
   }
 }
 
+// Rows are missing there, and with them commands that nobody knows: what motors did meanwhile is no push.
+bool has_hole(const FlightRecord& record, const ChunkPlace& place) {
+  constexpr double kHole = 1.5;  // usual intervals
+  const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
+  for (std::size_t i = place.begin; i < place.end; ++i)
+    if (arc.t[i + 1] - arc.t[i] > kHole * record.interval) return true;
+  return false;
+}
+
 std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int axis, int log) {
   const auto& places = fit.smoother->chunks();
   const auto& states = fit.smoother->states();
@@ -45,6 +54,7 @@ std::vector<Jump> jumps_of(const FlightRecord& record, const FlightFit& fit, int
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
     if (!places[k].linked || arc.log != log) continue;
+    if (has_hole(record, places[k]) || has_hole(record, places[k + 1])) continue;
     const Disturbance<double>&a = states[k].outside, &b = states[k + 1].outside;
     const double size = axis < 3 ? b.w_dot_B[axis] - a.w_dot_B[axis] : b.v_dot[axis - 3] - a.v_dot[axis - 3];
     const double h = arc.t[places[k].end] - arc.t[places[k].begin],

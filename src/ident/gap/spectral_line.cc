@@ -79,6 +79,34 @@ void look_for_line(const std::string& channel, const Pieces& pieces, double h, b
     out.push_back({channel, static_cast<double>(at) / (static_cast<double>(length) * h), best, share});
 }
 
+// The channels that show the same motion once more differentiated, or twice, and how often; none without.
+struct Differentiated {
+  int first = -1, times = 0;
+};
+Differentiated differentiated(const Signals& logged, int channel) {
+  if (channel >= kAttitude && channel < kAttitude + 3 && logged.rates) return {kGyro, 1};
+  if (channel >= kVelocity && channel < kVelocity + 3 && logged.force) return {kForce, 1};
+  if (channel >= kPosition && channel < kPosition + 3 && logged.force) return {kForce, 2};
+  return {};
+}
+
+// Whether what moves like that would stand out more in rates or specific force, and does not stand out there
+// at all: an estimator did it, or how it was aided.
+bool is_of_no_motion(const FlightRecord& record, const NoiseModel& noise,
+                     const std::vector<std::vector<SpectralLine>>& found, int channel,
+                     const SpectralLine& line) {
+  const auto [first, times] = differentiated(record.signals, channel);
+  if (first < 0) return false;
+  const auto sigma = [&](int c) { return noise.sigma[static_cast<std::size_t>(c)]; };
+  const double gain = std::pow(2 * M_PI * line.hz, times);
+  if (!(gain * sigma(channel) > std::max({sigma(first), sigma(first + 1), sigma(first + 2)}))) return false;
+  constexpr double kSame = 0.1;  // of the frequency
+  for (int c = first; c < first + 3; ++c)
+    for (const SpectralLine& other : found[static_cast<std::size_t>(c)])
+      if (std::abs(other.hz - line.hz) < kSame * line.hz) return false;
+  return true;
+}
+
 }  // namespace
 
 std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const FlightFit& fit) {
@@ -123,7 +151,9 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
     series < kChannels ? look_at_sensor(series) : look_at_air(series - kChannels);
   });
   std::vector<SpectralLine> out;
-  for (const auto& lines : found) out.insert(out.end(), lines.begin(), lines.end());
+  for (std::size_t series = 0; series < found.size(); ++series)
+    for (const SpectralLine& line : found[series])
+      if (!is_of_no_motion(record, fit.noise, found, static_cast<int>(series), line)) out.push_back(line);
   std::ranges::sort(out, std::greater<>(), &SpectralLine::height);
   return out;
 }
