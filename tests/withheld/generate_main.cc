@@ -12,7 +12,8 @@ struct Options {
   std::uint64_t seed = 1;
   int cases = 10, first = 1;
   std::string out, kind, only;
-  bool commands = true, estimator = false;
+  bool commands = true;
+  std::string sensors = "white";
   double size = 0;
 };
 
@@ -20,7 +21,8 @@ constexpr const char* kUsage =
     "withheld_generate --seed S --cases N --out DIR [--first I] [--kind none|single|pair|outside]\n"
     "                  [--only EFFECT[,EFFECT] [--size X]]     X in units of the detection limit\n"
     "                  [--input commands|speeds]               speeds: logs without commands\n"
-    "                  [--sensors white|estimator]             estimator: attitude drifts, velocity is off\n";
+    "                  [--sensors white|estimator|filtered]    estimator: attitude drifts, velocity is off;\n"
+    "                                                          filtered: rates and specific force are\n";
 
 Options parse(int argc, char** argv) {
   Options o;
@@ -42,10 +44,10 @@ Options parse(int argc, char** argv) {
       throw std::invalid_argument("--input is commands or speeds");
     else if (name == "--input")
       o.commands = value == "commands";
-    else if (name == "--sensors" && value != "white" && value != "estimator")
-      throw std::invalid_argument("--sensors is white or estimator");
+    else if (name == "--sensors" && value != "white" && value != "estimator" && value != "filtered")
+      throw std::invalid_argument("--sensors is white, estimator or filtered");
     else if (name == "--sensors")
-      o.estimator = value == "estimator";
+      o.sensors = value;
     else if (name == "--only")
       o.only = value;
     else if (name == "--size")
@@ -71,7 +73,8 @@ withheld::CaseOrder order_of(const Options& o, int index) {
     const bool is_outside = std::find(outside.begin(), outside.end(), order.members[0]) != outside.end();
     order.kind = is_outside ? "outside" : order.members.size() > 1 ? "pair" : "single";
   }
-  order.size = o.size, order.commands = o.commands, order.estimator = o.estimator;
+  order.size = o.size, order.commands = o.commands;
+  order.estimator = o.sensors == "estimator", order.filtered = o.sensors == "filtered";
   for (const std::string& name : order.members)
     if (!o.commands && withheld::acts_before_rotor_speed(name))
       throw std::invalid_argument(name + " does not show in logs without commands");

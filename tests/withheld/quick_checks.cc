@@ -170,5 +170,24 @@ TEST(WithheldCase, AnEstimatorIsOffSlowlyAndFliesTheSame) {
   EXPECT_LT(change, 0.02 * square);
 }
 
+TEST(WithheldCase, AFilterMakesRatesLateAndNothingElse) {
+  CaseOrder order{"none", {}};
+  const Case white = draw_case(14, 1, order);
+  order.filtered = true;
+  const Case filtered = draw_case(14, 1, order);
+  const auto &a = white.flights[0], &b = filtered.flights[0];
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  const double late = std::sqrt(2.0) / (2 * 3.14159265358979323846 * filtered.instruments.filter);
+  double prompt = 0, lagging = 0;  // squares against the motion then, and as it was
+  for (std::size_t k = 50; k < a.rows.size(); ++k) {
+    ASSERT_EQ(a.truth[k].motion.p, b.truth[k].motion.p) << k;
+    ASSERT_EQ(a.rows[k].shown.v, b.rows[k].shown.v) << k;
+    const Eigen::Vector3d w = b.truth[k].motion.w, before = w - late * b.truth[k].acceleration.dw;
+    const Eigen::Vector3d shown = b.rows[k].shown.gyro;
+    prompt += (shown - w).squaredNorm(), lagging += (shown - before).squaredNorm();
+  }
+  EXPECT_LT(lagging, prompt);
+}
+
 }  // namespace
 }  // namespace withheld

@@ -33,6 +33,17 @@ void make_estimator(Instruments* instruments, Random& random) {
   instruments->velocity_bias = random.log_uniform(0.005, 0.08);
 }
 
+void make_filtered(Instruments* instruments, Random& random) {
+  instruments->filter = random.log_uniform(35, 90);
+}
+
+void LowPass::step(const Eigen::Vector3d& input, double h) {
+  const double a = h / 2, damped = std::sqrt(2.0) * w_ * a + a * a * w_ * w_;
+  const Eigen::Vector3d before = slope_;
+  slope_ = ((1 - damped) * before + 2 * a * w_ * w_ * (input - y_)) / (1 + damped);
+  y_ += a * (before + slope_);
+}
+
 Eigen::Quaterniond small_turn(const Eigen::Vector3d& angle) {
   const double size = angle.norm();
   if (size < 1e-12)

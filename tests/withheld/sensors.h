@@ -19,10 +19,26 @@ struct Instruments {
   // Of an estimator: a slow error of the attitude about each axis, rad, that lasts so many seconds; a
   // constant one of the velocities, m/s, standard deviation over logs.
   double attitude_drift = 0, drift_time = 6, velocity_bias = 0;
+  double filter = 0;  // Hz, cut-off of a Butterworth filter on rates and specific force as logged; 0: none
 };
 
 // An estimator shows attitude and velocity.
 void make_estimator(Instruments* instruments, Random& random);
+// An autopilot logs its rates and specific force filtered.
+void make_filtered(Instruments* instruments, Random& random);
+
+// Second-order Butterworth, three components.
+class LowPass {
+ public:
+  explicit LowPass(double hz) : w_(2 * 3.14159265358979323846 * hz) {}
+  // Over h seconds of the same input, by the implicit midpoint rule.
+  void step(const Eigen::Vector3d& input, double h);
+  const Eigen::Vector3d& value() const { return y_; }
+
+ private:
+  double w_;
+  Eigen::Vector3d y_ = Eigen::Vector3d::Zero(), slope_ = Eigen::Vector3d::Zero();
+};
 
 Instruments draw_instruments(const Vehicle& vehicle, Random& random);
 

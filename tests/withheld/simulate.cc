@@ -174,6 +174,31 @@ class SlowError {
   Vector3d turn_, v_;
 };
 
+// Rates and specific force behind a filter, with the noise that goes through it.
+class FilteredImu {
+ public:
+  FilteredImu(const Instruments& i, const Vector3d& gyro_bias, Random random)
+      : i_(i), bias_(gyro_bias), random_(random), gyro_(i.filter), acc_(i.filter) {}
+
+  bool there() const { return i_.filter > 0; }
+  // White noise of the same density as that of samples once a row.
+  void step(const Shown& exact, double h) {
+    const double more = std::sqrt(1 / (h * i_.rate));
+    gyro_.step(exact.gyro + random_.normal3(i_.gyro * more), h);
+    acc_.step(exact.acc + random_.normal3(i_.acc * more), h);
+  }
+  Shown in_place_of(Shown s) const {
+    s.gyro = gyro_.value() + bias_, s.acc = acc_.value();
+    return s;
+  }
+
+ private:
+  const Instruments& i_;
+  Vector3d bias_;
+  Random random_;
+  LowPass gyro_, acc_;
+};
+
 // Whole microseconds; what rounding took away is given back later, or small corrections would never be flown.
 Four quantised(const Vehicle& v, const Four& delta, Four* carried) {
   const double span = v.pulse_max - v.pulse_min;
@@ -203,6 +228,7 @@ Flight fly(const Vehicle& v, const Effects& e, const Instruments& instruments, c
   Controller controller(v, settings.delay_margin);
   const Vector3d gyro_bias = random.normal3(instruments.gyro_bias);
   SlowError slow(instruments, Random(seed, World::stream(index, 5)));
+  FilteredImu imu(instruments, gyro_bias, Random(seed, World::stream(index, 6)));
 
   Flight flight;
   flight.manoeuvres = plan.manoeuvres();
@@ -234,7 +260,7 @@ Flight fly(const Vehicle& v, const Effects& e, const Instruments& instruments, c
       flight.truth.push_back({t, motion, late, acceleration, spin, world.air(t), volts});
       const Four noise(random.normal(), random.normal(), random.normal(), random.normal());
       flight.rows.push_back({t, delta, Omega + instruments.speed_share * v.hover_speed() * noise,
-                             slow.added_to(shown, period),
+                             slow.added_to(imu.there() ? imu.in_place_of(shown) : shown, period),
                              volts * (1 + instruments.voltage_share * random.normal())});
       flight.commands.push(t, delta);
       judge(v, flight.truth.back(), reference, flight);
@@ -249,6 +275,10 @@ Flight fly(const Vehicle& v, const Effects& e, const Instruments& instruments, c
       target = gain * effective.mean(from, from + h);
       x = world.step(now, x, target, h);
       past.push(now + h, motion_of(x));
+      if (imu.there())
+        imu.step(show(e, motion_of(x), past.at(now + h - e.sensor_delay),
+                      world.slope(now + h, x, target).acceleration),
+                 h);
     }
     t = next;
   }

@@ -55,6 +55,7 @@ Case draw_scene(std::uint64_t seed, const CaseOrder& order) {
   if (!order.commands) c.instruments.rotor_speeds = true;
   Random of_estimator(seed, 1000);
   if (order.estimator) make_estimator(&c.instruments, of_estimator);
+  if (order.filtered) make_filtered(&c.instruments, of_estimator);
   for (int log = 0; log < 2; ++log) c.settings[static_cast<std::size_t>(log)] = draw_settings(c, log, random);
   c.known = draw_known_before(c.vehicle, random);
   c.effects.gust_grip = random.uniform(0.15, 0.4);

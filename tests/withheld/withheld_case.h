@@ -16,6 +16,7 @@ struct CaseOrder {
   double size = 0;                   // wanted, in units of the detection limit; 0: drawn
   bool commands = true;              // are logged; without, rotor speeds always are
   bool estimator = false;            // shows attitude and velocity
+  bool filtered = false;             // rates and specific force are
 };
 
 struct Withheld {
