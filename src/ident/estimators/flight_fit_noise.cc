@@ -12,9 +12,9 @@ namespace {
 constexpr double kNoGust = 0.01;       // m/s^2: weaker ones move no constant, whatever their axes
 constexpr double kBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
 constexpr int kRetune = 3;
-// Shortest chunks, s, the longest, and how much longer those of a search are. (No shorter than 0.1 s in a
-// search, strong gusts that last no longer left lines of some Hz in the rates.)
-constexpr double kFinest = 0.03, kLongest = 0.25, kInSearch = 2.0;
+// Shortest chunks, s; in a search, where models that miss much ask for the shortest, less would cost time
+// only. The longest, and how much longer those of a search are.
+constexpr double kFinest = 0.03, kFinestSearch = 0.1, kLongest = 0.25, kInSearch = 2.0;
 
 double rms_rate_of(const FlightRecord& record, int channel) {
   double sum = 0, n = 0;
@@ -125,7 +125,7 @@ double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine)
     return axes;
   };
   shorten(kGyro, as_noise(0)), shorten(kVelocity, as_noise(3));
-  return std::clamp(h, std::max(4.0 * record.interval, kFinest), kLongest);
+  return std::clamp(h, std::max(4.0 * record.interval, fine ? kFinest : kFinestSearch), kLongest);
 }
 
 }  // namespace ident
