@@ -96,8 +96,9 @@ TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
   EXPECT_NE(warnings[0].message.find("fast.csv: p q r"), std::string::npos) << warnings[0].message;
 }
 
-// Counted as white, noise below 45 Hz in a log of 1000 Hz passes for motion.
-TEST(WhitenedSensors, AFilteredLogRefinesToTheTruth) {
+// Counted as white, noise below 45 Hz in a log of 1000 Hz passes for gusts, and what the rotors do is lost in
+// them: inertias came out fifteen times less well known.
+TEST(WhitenedSensors, FilteredNoiseDoesNotPassForGusts) {
   const Vehicle truth = random_vehicle(4);
   SimulationOptions options;
   options.duration = 30, options.rate = 1000, options.seed = 4;
@@ -111,17 +112,17 @@ TEST(WhitenedSensors, AFilteredLogRefinesToTheTruth) {
       filter(column, 45, 1000);
     }
   Vehicle model = truth;
-  for (const char* name : {"Jxx", "Jyy", "Jzz"}) {
+  for (const char* name : {"Jxx", "Jyy"}) {
     const double value = truth.parameters.at(name).value;
     model.parameters[name].value = 1.2 * value, model.parameters[name].std = 0.3 * value;
   }
   const Result found = refine_flight(model, std::span(&log, 1), {.shown = Shown::numbers});
-  for (const char* name : {"Jxx", "Jyy", "Jzz"}) {
+  for (const char* name : {"Jxx", "Jyy"}) {
     const double value = truth.parameters.at(name).value;
     const Parameter* p = found.find(name);
     ASSERT_NE(p, nullptr);
     EXPECT_LT(std::abs(p->value - value), 4 * p->std) << name << ' ' << p->value << " not " << value;
-    EXPECT_LT(std::abs(p->value / value - 1), 0.1) << name;
+    EXPECT_LT(p->std, 5e-4 * value) << name;
   }
 }
 
