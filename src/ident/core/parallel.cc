@@ -50,12 +50,13 @@ class Crew {
 
   /// The caller works too, and never waits for one of the crew who has not come: calls within calls end.
   void work_on(Call& call) {
+    const std::size_t wanted = call.wanted;  // before others count it down
     {
       const std::scoped_lock lock(mutex_);
-      while (threads_.size() < call.wanted) threads_.emplace_back([this] { serve(); });
+      while (threads_.size() < wanted) threads_.emplace_back([this] { serve(); });
       open_.push_back(&call);
     }
-    if (call.wanted == 1)
+    if (wanted == 1)
       wake_.notify_one();
     else
       wake_.notify_all();
