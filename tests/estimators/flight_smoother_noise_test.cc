@@ -61,6 +61,33 @@ TEST(FlightSmoother, RoundsInVainEnd) {
   EXPECT_NEAR(few.reduced().cost / many.reduced().cost, 1.0, 5e-3);
 }
 
+// The last step is theirs: where states end is known a round before they are there, and not earlier where
+// rounds lead there slowly.
+TEST(FlightSmoother, EndsAreKnownARoundEarlierAndAsWell) {
+  for (const bool few_sensors : {false, true}) {
+    Gusty flight(8.0);
+    if (few_sensors) {
+      for (auto& column : flight.logs[0].f_B) column.clear();
+      for (auto& column : flight.logs[0].v_W) column.clear();
+      for (auto& column : flight.logs[0].q_WB) column.clear();
+      flight.logs[0].Omega.clear();
+      flight.record = make_flight_record(flight.vehicle, flight.p, flight.logs);
+    }
+    const NoiseModel noise = initial_noise(flight.record);
+    FlightSmoother few(flight.record, flight.theta, noise, 0.1),
+        many(flight.record, flight.theta, noise, 0.1);
+    few.settle_ends(flight.u, 30, 1e-3);
+    many.settle(flight.u, 60, 1e-12);
+    const auto a = few.arc_ends(), b = many.arc_ends();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k)
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const double std = std::sqrt(b[k].P(flight.record.layout.v + i, flight.record.layout.v + i));
+        EXPECT_NEAR(a[k].x.body.v_W[i], b[k].x.body.v_W[i], 0.1 * std) << few_sensors << ' ' << i;
+      }
+  }
+}
+
 // In a search chunks are twice as long as no gust within them shows, and none shorter than a tenth of a
 // second.
 TEST(FlightSmoother, ChunksOfASearchAreTwiceAsLong) {

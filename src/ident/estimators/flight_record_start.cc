@@ -103,17 +103,12 @@ void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
 // What moves, by what was measured of it; `sigma` by channel.
 void set_body_start(FlightArc& arc, const std::array<double, kChannels>& sigma) {
   const std::size_t rows = arc.rows();
-  const auto column = [&](int channel) {
-    std::vector<double> c(rows);
-    for (std::size_t i = 0; i < rows; ++i) c[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-    return interpolated(arc.t, c);
-  };
   std::array<std::vector<double>, 3> w, v, x;
   std::array<std::vector<double>, 4> q;
   for (int k = 0; k < 3; ++k) {
     const auto c = static_cast<std::size_t>(k);
-    w[c] = column(kGyro + k), v[c] = column(kVelocity + k),
-    x[c] = averaged(arc.t, column(kPosition + k), sigma[kPosition + c]);
+    w[c] = filled_column(arc, kGyro + k), v[c] = filled_column(arc, kVelocity + k),
+    x[c] = averaged(arc.t, filled_column(arc, kPosition + k), sigma[kPosition + c]);
   }
   for (std::size_t k = 0; k < 4; ++k) {
     std::vector<double> c(rows);
@@ -161,6 +156,13 @@ std::vector<double> interpolated(const std::vector<double>& t, const std::vector
   if (last == column.size()) return {};
   for (std::size_t k = last + 1; k < column.size(); ++k) out[k] = column[last];
   return out;
+}
+
+std::vector<double> filled_column(const FlightArc& arc, int channel) {
+  std::vector<double> column(arc.rows());
+  for (std::size_t i = 0; i < arc.rows(); ++i)
+    column[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+  return interpolated(arc.t, column);
 }
 
 void set_noise(FlightRecord& record) {

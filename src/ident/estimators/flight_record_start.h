@@ -8,6 +8,9 @@ namespace ident {
 /// The column with gaps interpolated linearly; empty when nothing was sampled.
 std::vector<double> interpolated(const std::vector<double>& t, const std::vector<double>& column);
 
+/// A channel of an arc, likewise.
+std::vector<double> filled_column(const FlightArc& arc, int channel);
+
 /// White noise of every channel from differences of its samples.
 void set_noise(FlightRecord& record);
 

@@ -13,13 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::vector<double> filled_column(const FlightArc& arc, int channel) {
-  std::vector<double> column(arc.rows());
-  for (std::size_t i = 0; i < arc.rows(); ++i)
-    column[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-  return interpolated(arc.t, column);
-}
-
 // Three channels by row, filled between their samples; nothing without any.
 class Filled {
  public:
