@@ -158,6 +158,18 @@ TEST(FlightFindings, HolesThatWouldLeaveNothingAreBridged) {
   EXPECT_NE(std::ranges::find(record.warnings, "holes_bridged", &Warning::code), record.warnings.end());
 }
 
+// A log of a few rows beside a whole one is not full of holes: it holds no flight.
+TEST(FlightFindings, ALogTooShortToFlyIsSaidNotToBeUsed) {
+  const Vehicle vehicle = quad();
+  std::vector<FlightLog> logs(2, flight(vehicle, 250, 1, 5));
+  logs[1].file = "cut.csv";
+  logs[1].windows = {{0.0, 0.05}};
+  const FlightRecord record = make_flight_record(vehicle, parameter_vector(vehicle), logs);
+  ASSERT_EQ(record.warnings.size(), 1u);
+  EXPECT_EQ(record.warnings[0].code, "log_not_used");
+  EXPECT_TRUE(record.warnings[0].message.starts_with("cut.csv: ")) << record.warnings[0].message;
+}
+
 // What the model lacks makes a log with other manoeuvres ask for other constants; thrust it leaves alone.
 TEST(FlightFindings, AMissingEffectIsNoOtherVehicle) {
   Vehicle truth = quad();

@@ -116,6 +116,12 @@ Pieces whole_pieces(const FlightLog& log, double history, double longest_gap,
                     std::vector<Warning>& warnings) {
   const std::vector<bool> fly = in_flight(log, warnings);
   Pieces loose = pieces(log, fly, longest_gap, history);
+  if (loose.empty()) {
+    warnings.push_back({"log_not_used", log.file +
+                                            ": no uninterrupted part of 0.3 s or more with turning rotors: "
+                                            "nothing of it is used"});
+    return loose;
+  }
   if (!log.has_commands()) return loose;
   const double gap =
       std::clamp(kMissedRows * usual_step(log), std::min(kShortestGap, longest_gap), longest_gap);
