@@ -163,13 +163,13 @@ bool plainly_right(const Hypothesis& h) {
   return std::min({h.agreement(0), h.agreement(1), h.agreement(2)}) >= kHalf;
 }
 
-/// The stated order first, then that with reversed axes, then other orders.
-std::vector<Hypothesis> hypotheses(const Windows& windows, const Vehicle& vehicle,
-                                   std::span<const double> p) {
+/// The stated order first, then that with reversed axes, then `others`.
+std::vector<Hypothesis> hypotheses(const Windows& windows, const Vehicle& vehicle, std::span<const double> p,
+                                   bool others) {
   std::vector<Hypothesis> out;
   for (const Order& order : orders(vehicle.rotors.size())) {
     const bool stated = out.empty();
-    if (!stated && plainly_right(out[0])) break;
+    if (!stated && !others) break;
     Hypothesis h{order, {1, 1, 1}, correlation_of(windows, vehicle, p, order)};
     for (unsigned reversed = 0; reversed < (stated ? 8u : 1u); ++reversed) {
       for (std::size_t k = 0; k < 3; ++k) h.sign[k] = (reversed >> k & 1) ? -1.0 : 1.0;
@@ -242,16 +242,30 @@ constexpr std::array kShifts = {0.0, -0.5, 0.5, 1.0};
 constexpr std::size_t kTrials = kLags.size() * kShifts.size();
 
 Trial trial(const std::vector<Streams>& arcs, double interval, const Vehicle& vehicle,
-            std::span<const double> p, std::size_t number) {
+            std::span<const double> p, std::size_t number, bool others) {
   const double lag = kLags[number / kShifts.size()];
   const Windows windows = windows_at(arcs, interval, lag, kShifts[number % kShifts.size()]);
   Trial out;
   out.windows = static_cast<double>(windows.count());
   if (out.windows < kFewWindows) return out;
-  out.all = hypotheses(windows, vehicle, p);
+  out.all = hypotheses(windows, vehicle, p, others);
   out.most = std::ranges::max(out.all, {}, &Hypothesis::total).total();
   out.thrust_variation = thrust_variation(windows, arcs, lag);
   return out;
+}
+
+/// The best of all trials. Other orders of the rotors are tried where the stated one is plainly right in
+/// none.
+Trial best_trial(const std::vector<Streams>& arcs, double interval, const Vehicle& vehicle,
+                 std::span<const double> p) {
+  std::array<Trial, kTrials> trials;
+  for (const bool others : {false, true}) {
+    in_parallel(trials.size(),
+                [&](std::size_t i) { trials[i] = trial(arcs, interval, vehicle, p, i, others); });
+    if (std::ranges::any_of(trials, [](const Trial& t) { return !t.all.empty() && plainly_right(t.all[0]); }))
+      break;
+  }
+  return *std::ranges::max_element(trials, {}, &Trial::most);
 }
 
 }  // namespace
@@ -266,10 +280,7 @@ RotorAgreement test_rotors(const FlightRecord& record, const Vehicle& vehicle, s
     std::vector<Streams> arcs;
     for (const FlightArc& arc : record.arcs)
       arcs.push_back(streams_of(arc, rotor_speeds(arc, vehicle, p, measured)));
-    std::array<Trial, kTrials> trials;
-    in_parallel(trials.size(),
-                [&](std::size_t i) { trials[i] = trial(arcs, record.interval, vehicle, p, i); });
-    const Trial& best = *std::ranges::max_element(trials, {}, &Trial::most);
+    const Trial best = best_trial(arcs, record.interval, vehicle, p);
     if (best.all.empty()) continue;
     out.correlation = best.all[0].r, out.windows = best.windows;
     out.thrust_variation = best.thrust_variation;
