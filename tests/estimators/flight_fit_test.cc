@@ -59,6 +59,24 @@ TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
   EXPECT_NEAR(beside.cost, fit.cost, 0.01);
 }
 
+// A filter's position is so smooth that its differences show next to no noise.
+TEST(FlightFit, AChannelThatSeemsToHaveNoNoiseDoesNotSpoilTheOthers) {
+  const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
+  const std::vector<double> p = parameter_vector(vehicle);
+  SimulationOptions simulated;
+  simulated.duration = 20.0, simulated.turbulence = 0.3;
+  simulated.noise = noise_level("typical");
+  const std::vector<FlightLog> logs{simulate_flight(vehicle, simulated).log};
+  const FlightRecord record = make_flight_record(vehicle, p, logs);
+  FlightRecord wrong = record;
+  for (std::size_t k = 0; k < 3; ++k) wrong.sigma[kPosition + k] = 1e-8;
+  const Theta theta(p, free_constants(vehicle, p), record.logs, true);
+  const FlightFit fit = fit_flight(record, theta, {}), other = fit_flight(wrong, theta, {});
+  for (int i = 0; i < theta.constants_count(); ++i)
+    EXPECT_LT(std::abs(fit.u[i] - other.u[i]), 0.3 * std::sqrt(fit.covariance(i, i)))
+        << theta.constants()[static_cast<std::size_t>(i)].name;
+}
+
 TEST(FlightFit, LongStepsServeWhereTheyDoNotShow) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);

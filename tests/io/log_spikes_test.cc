@@ -48,5 +48,23 @@ TEST(LogSpikes, ASensorThatJumpsForOneSampleIsASpike) {
   EXPECT_EQ(log.warnings.size(), 1U);
 }
 
+// Rotors need longer than some milliseconds to turn a vehicle, and so to and fro.
+TEST(LogSpikes, WhatComesAndGoesWithinMillisecondsIsNoMotion) {
+  FlightLog log;
+  log.file = "log.csv";
+  std::vector<std::vector<double>> rate(1);
+  for (int i = 0; i < 4000; ++i) {
+    log.t.push_back(0.001 * i);
+    rate[0].push_back(std::sin(5 * log.t.back()) + 0.02 * std::sin(1e4 * i));
+  }
+  for (std::size_t i = 1000; i < 1005; ++i) rate[0][i] += 4.0;
+  for (std::size_t i = 2000; i < 2040; ++i) rate[0][i] += 4.0;  // a blow, for all that is known
+  drop_spikes(log, rate, "p q r");
+  for (std::size_t i = 990; i < 1015; ++i) EXPECT_EQ(std::isnan(rate[0][i]), i >= 1000 && i < 1005) << i;
+  EXPECT_FALSE(std::isnan(rate[0][2020]));
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_NE(log.warnings[0].message.find("t = 1 s"), std::string::npos) << log.warnings[0].message;
+}
+
 }  // namespace
 }  // namespace ident

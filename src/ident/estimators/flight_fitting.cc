@@ -31,7 +31,6 @@ constexpr double kLonger = 1.5, kShorter = 1.2;
 // noise that would do the same there, which is next to none where no wind blows, causes made a fiftieth and
 // less: 40 of 2000, 30 of 14000.
 constexpr double kOfSteps = 1.0, kOfLinks = 100.0;
-constexpr double kMostCalm = 1e4;  // times the variance: few rounds of noise bring that down again
 
 using Eigen::VectorXd;
 
@@ -48,14 +47,15 @@ double first_chunk(const FlightRecord& record) {
 }
 
 // Very far from the minimum, steps follow what noise there is against everything that was known beforehand,
-// to where chance takes them. Noise as large as the residuals lets the first ones keep to it; rounds of noise
-// bring it down again.
-void calm(FlightSmoother& smoother) {
-  const double square = square_of(smoother);
-  if (!(square > kFar) || !std::isfinite(square)) return;
+// to where chance takes them. Noise as large as the residuals of a channel lets the first ones keep to it;
+// rounds of noise bring it down again.
+NoiseModel calmer(const FlightSmoother& smoother) {
+  const Moments m = smoother.moments();
   NoiseModel noise = smoother.noise();
-  for (double& sigma : noise.sigma) sigma *= std::sqrt(std::min(square / kCalm, kMostCalm));
-  smoother.set_noise(noise);
+  for (std::size_t c = 0; c < kChannels; ++c)
+    if (const double square = m.square[c] / m.count[c]; square > kFar && std::isfinite(square))
+      noise.sigma[c] *= std::sqrt(square / kCalm);
+  return noise;
 }
 
 VectorXd start_of(const Theta& theta, const FlightFitOptions& options) {
@@ -69,7 +69,9 @@ Fitting::Fitting(const FlightRecord& record, const Theta& theta, const FlightFit
 
 void Fitting::begin() {
   set_out();
-  if (options_.estimate_noise) calm(*smoother_);
+  if (options_.estimate_noise)
+    if (const NoiseModel noise = calmer(*smoother_); noise.sigma != smoother_->noise().sigma)
+      start(noise), smoother_->set_gentle(true);
   trust_region(first_steps());
 }
 
@@ -202,18 +204,18 @@ FlightFit Fitting::unfinished() const {
 }
 
 void Fitting::set_out() {
+  const NoiseModel noise = options_.noise.value_or(initial_noise(record_));
   chunk_ = options_.chunk_seconds > 0 ? options_.chunk_seconds : first_chunk(record_);
-  start();
+  start(noise);
   if (options_.chunk_seconds <= 0 && !(square_of(*smoother_) < kFar)) {
     chunk_ = std::max(kSureChunk, 4 * record_.interval);
-    start();
+    start(noise);
   }
   smoother_->set_gentle(true);
 }
 
-void Fitting::start() {
-  smoother_ = std::make_shared<FlightSmoother>(
-      record_, theta_, options_.noise.value_or(initial_noise(record_)), chunk_, options_.threads);
+void Fitting::start(const NoiseModel& noise) {
+  smoother_ = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
   smoother_->set_steps(by_);
   // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
   smoother_->set_huber(options_.estimate_noise || !options_.robust ? 1e9 : kHuber);

@@ -48,7 +48,7 @@ class Fitting {
   FlightFit unfinished() const;
   // To where the first step begins: states as measured, in chunks short enough for what they miss.
   void set_out();
-  void start();
+  void start(const NoiseModel& noise);
   // From the states that were measured, or those of `from`.
   void restart(const NoiseModel& noise, int rounds = 2, const FlightSmoother* from = nullptr);
   // What there is of a like model, over the same record.

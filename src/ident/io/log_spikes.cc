@@ -23,6 +23,8 @@ constexpr double kAgree = 0.3;
 constexpr double kAccident = 0.01;
 constexpr double kImpossible = 100.0;  // times what all but a hundredth of the commands are
 constexpr double kOneGap = 3.0;  // times the usual step: samples further apart say nothing of each other
+// What comes and goes at once and lasts no longer than so many s is no motion: rotors take longer to push.
+constexpr double kSudden = 0.011;
 constexpr std::size_t kFew = 50;
 constexpr double kNormal = 1.4826;  // standard deviation over the median of sizes
 
@@ -67,6 +69,23 @@ std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vect
     const std::array<double, 4> around{at(k - 2), at(k - 1), at(k + 1), at(k + 2)};
     const auto [low, high] = std::ranges::minmax(around);
     if (high - low < kAgree * std::abs(at(k) - 0.5 * (low + high))) spikes.push_back(rows[k]);
+  }
+  // A jump, and one back that undoes it.
+  const auto jump = [&](std::size_t k) { return at(k + 1) - at(k); };
+  for (std::size_t from = 1; from + 3 < rows.size(); ++from) {
+    const double up = jump(from);
+    if (!(std::abs(up) > limit)) continue;
+    for (std::size_t to = from + 1; to + 1 < rows.size(); ++to) {
+      if (t[rows[to + 1]] - t[rows[from]] > kSudden) break;
+      const double down = jump(to);
+      if (std::abs(up + down) < kAgree * std::abs(up)) {
+        if (to > from + 1)
+          for (std::size_t k = from + 1; k <= to; ++k) spikes.push_back(rows[k]);
+        from = to;
+        break;
+      }
+      if (std::abs(down) > kAgree * std::abs(up)) break;
+    }
   }
   const bool accident = static_cast<double>(spikes.size()) < kAccident * static_cast<double>(rows.size());
   return accident ? spikes : std::vector<std::size_t>{};

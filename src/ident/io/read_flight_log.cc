@@ -10,6 +10,7 @@
 #include "ident/io/log_attitude.h"
 #include "ident/io/log_checks.h"
 #include "ident/io/log_columns.h"
+#include "ident/io/log_jumps.h"
 #include "ident/io/log_signals.h"
 #include "ident/io/log_spikes.h"
 #include "ident/io/table_checks.h"
@@ -49,13 +50,14 @@ std::vector<double> put_time_in_order(NumberTable& table) {
 class Builder {
  public:
   Builder(NumberTable table, const Vehicle& vehicle, const std::optional<LogMap>& map,
-          const LogColumns& columns)
+          const LogColumns& columns, std::vector<double> breaks)
       : table_(std::move(table)), vehicle_(vehicle), map_(map.value_or(LogMap{})), columns_(columns) {
     log_.file = table_.file;
     log_.t = *table_.find("t");
     log_.warnings = table_.warnings;
     log_.notices = table_.notices;
     log_.notices.insert(log_.notices.end(), columns.notices.begin(), columns.notices.end());
+    log_.breaks = std::move(breaks);
   }
 
   FlightLog run() {
@@ -71,6 +73,8 @@ class Builder {
     log_.vbat = column("vbat");
     log_.current = column("current");
     check_sensors();
+    for (const Sensor& sensor : {Sensor{"attitude", log_.q_WB}, {"x y z", log_.x_W}, {"vx vy vz", log_.v_W}})
+      if (!sensor.components.front().empty()) split_at_jumps(log_, sensor.components, sensor.name);
     turn_axes();
     judge();
     take_windows();
@@ -246,10 +250,8 @@ FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const
   for (const LogSignal& s : log_signals(kMostRotors)) schema.signals.push_back(s.signal);
   drop_empty_columns(table, schema);
   expect_plausible(table, schema, csv.header_line());
-  const std::vector<double> breaks = put_time_in_order(table);
-  FlightLog log = Builder(std::move(table), vehicle, map, columns).run();
-  log.breaks = breaks;
-  return log;
+  std::vector<double> breaks = put_time_in_order(table);
+  return Builder(std::move(table), vehicle, map, columns, std::move(breaks)).run();
 }
 
 }  // namespace ident
