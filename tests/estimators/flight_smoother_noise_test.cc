@@ -187,6 +187,18 @@ TEST(FlightSmoother, NoiseOfMotorsBelowTheFloorIsNone) {
   EXPECT_LT(smoother.noise().q_motor, 1e-8);
 }
 
+// What speeds and rates hardly tell of it does not stay where it was begun, to stand in for other noise.
+TEST(FlightSmoother, NoiseOfMotorsThatHardlyShowsIsNone) {
+  const Gusty flight(20.0);
+  const auto& [vehicle, p, logs, record, theta, u] = flight;
+  NoiseModel noise = initial_noise(record);
+  noise.q_motor = 1.0;
+  FlightSmoother smoother(record, theta, noise, 0.03);
+  smoother.settle(u, 3);
+  smoother.retune(6);
+  EXPECT_LT(smoother.noise().q_motor, 1e-3);
+}
+
 // The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew
 // on the way there.
 TEST(FlightSmoother, NoiseIsTheSameWithTheSharedUnknownsHeldForSomeRounds) {

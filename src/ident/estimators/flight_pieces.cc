@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
 constexpr double kPushOver = 0.5;      ///< s: so short a time below it is flown
+constexpr double kLiftOff = 1.0;       ///< s after the ground, and before it, in which the ground may push
 // With rows the commands are missing: so many steps without one, at least so many seconds, end an arc.
 constexpr double kMissedRows = 5.0, kShortestGap = 0.03;
 constexpr double kEnoughLeft = 0.7;  // of the flight, in such pieces
@@ -50,7 +51,11 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
     std::size_t end = i + 1;
     while (end < log.rows() && low(end) == low(i)) ++end;
     const bool pushed_over = i > 0 && end < log.rows() && log.t[end] - log.t[i] < kPushOver;
-    if (low(i) && !pushed_over) quiet_until = log.t[end - 1] + 1.0;  // the first second of lift-off as well
+    if (low(i) && !pushed_over) {
+      quiet_until = log.t[end - 1] + kLiftOff;
+      for (std::size_t k = i; k > 0 && log.t[i] - log.t[k - 1] < kLiftOff && fly[k - 1]; --k)
+        fly[k - 1] = false, ++grounded;
+    }
     for (; i < end; ++i)
       if (log.t[i] < quiet_until) fly[i] = false, ++grounded;
   }

@@ -26,6 +26,9 @@ constexpr double kMostDense = 3.0;
 constexpr int kHeld = 4;
 constexpr Index kManyShared = 40;
 constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
+// Of the motors' noise more than this share of its links has to be told: what nothing tells of it would stand
+// in for the noise of rates once Jp is large against Jzz.
+constexpr double kNoMotorNoise = 0.03;
 // A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
 constexpr double kNothing = 1e-11;
 // Share of the innovations that the data determine below which there might as well be none.
@@ -187,7 +190,7 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
         error.sigma = std::min(error.sigma, seen.sigma * std::sqrt(kMostDense * error.tau / seen.tau));
       }
     if (links > 0) {  // MacKay's fixed point here too: it reaches zero where there is no such noise
-      const VarianceStep step(motors, motors_determined, links);
+      const VarianceStep step(motors, motors_determined + kNoMotorNoise * links, links);
       // It is the variance of the links, of which the floor is a part, that is to shrink by that ratio.
       const double of_floor = std::min(step.ratio - 1, 0.0) * motors_floor / links;
       noise_.q_motor = std::max(noise_.q_motor * step.ratio + of_floor, kLeastMotor);

@@ -61,7 +61,9 @@ void enter(Entries& entries, const QuadraticForm& form, const ExtendedProblem& p
     name = name.substr(0, name.find('@'));
     double limit = kSeen * deviation_of(form, problem, static_cast<int>(place), static_cast<int>(d));
     if (name == "ground_effect.radius_sq") name = "ground_effect.radius", limit = std::sqrt(limit);
-    if (!at->limits.contains(name) || limit > at->limits[name].get<double>())
+    // The largest of its rotors; one that nothing would show, null, is larger than all.
+    const auto known = at->limits.find(name);
+    if (known == at->limits.end() || (known->is_number() && !(limit <= known->get<double>())))
       at->limits[name] = number(limit);
   }
 }

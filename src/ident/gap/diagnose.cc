@@ -118,33 +118,24 @@ void doubt_refused(std::vector<Parameter>& parameters, const SearchResult& searc
     }
 }
 
-}  // namespace
+// Whether what is left lies at the noise, so that only its pattern speaks, and gusts were held for longer
+// than they last: where a controller answers them within that, its answer is a pattern too.
+bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, const GapClosed& gap) {
+  constexpr double kAtTheNoise = 2.0, kShorter = 0.8;
+  return gap.after < kAtTheNoise * gap.floor &&
+         chunk_for(record, search.form.noise) < kShorter * search.best.fit.chunk_seconds;
+}
 
-Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
-  Diagnosis out;
+// A diagnosis of a flight that was entered, with what `begun` says of it. None where it would be doubtful and
+// shorter steps of gusts, `fine_gusts`, may tell more.
+std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                                   const GapOptions& options, FlightEntry entry, Result begun,
+                                   bool fine_gusts) {
+  auto [p, record, tested] = std::move(entry);
+  Diagnosis out{std::move(begun), {}};
   Result& result = out.result;
-  result.schema = "ident.gap/1";
-  result.command = "gap";
-  require_known(options.exclude);
-  auto [p, record, tested] = enter_flight(vehicle, logs, result);
-  const bool noisy_input = has_noisy_input(record);
-  if (only_trim(record.signals)) {
-    out.adopted = diagnose_trim(result, record, p, options.exclude);
-    if (const std::string wrong = disqualified(tested); !wrong.empty()) {
-      result.extra["verdict"] = {{"status", "unknown"},
-                                 {"effects", Json::array()},
-                                 {"confused_with", Json::array()},
-                                 {"sentence", wrong}};
-      result.verdict = wrong;
-      distrust(result, wrong);
-    }
-    if (result.extra["verdict"]["status"] == "unknown") trust_less(result.extra["candidates"], {});
-    result.sections.push_back(data_health(record, logs, initial_noise(record)));
-    return out;
-  }
-  require_turning(record.signals);
-  const bool hover = is_hover(tested);
-  const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
+  const bool noisy_input = has_noisy_input(record), hover = is_hover(tested);
+  const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover, fine_gusts,
                                      options.progress};
   SearchResult search = search_causes(record, vehicle, p, search_options);
   const Eigen::VectorXd moved = moved_by_rougher_speeds(record, *search.best.theta, search.best.fit);
@@ -208,6 +199,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   if (hover) verdict = in_hover(std::move(verdict));
   if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
+  const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
+  if (doubtful && !fine_gusts && gusts_may_be_all(record, search, gap)) return std::nullopt;
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
                              {"confused_with", verdict.confused_with},
@@ -277,6 +270,35 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.sections.push_back(data_health(record, logs, search.best.fit.noise));
   out.adopted = hover ? vehicle : adopted_vehicle(vehicle, search.best);
   return out;
+}
+
+}  // namespace
+
+Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
+  Diagnosis out;
+  Result& result = out.result;
+  result.schema = "ident.gap/1";
+  result.command = "gap";
+  require_known(options.exclude);
+  auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  if (only_trim(record.signals)) {
+    out.adopted = diagnose_trim(result, record, p, options.exclude);
+    if (const std::string wrong = disqualified(tested); !wrong.empty()) {
+      result.extra["verdict"] = {{"status", "unknown"},
+                                 {"effects", Json::array()},
+                                 {"confused_with", Json::array()},
+                                 {"sentence", wrong}};
+      result.verdict = wrong;
+      distrust(result, wrong);
+    }
+    if (result.extra["verdict"]["status"] == "unknown") trust_less(result.extra["candidates"], {});
+    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    return out;
+  }
+  require_turning(record.signals);
+  if (std::optional<Diagnosis> seen = diagnosed(vehicle, logs, options, {p, record, tested}, result, false))
+    return std::move(*seen);
+  return std::move(*diagnosed(vehicle, logs, options, {p, record, tested}, result, true));
 }
 
 }  // namespace ident

@@ -11,6 +11,7 @@ struct SearchOptions {
   std::vector<std::string> exclude;
   int most_causes;  ///< in the vehicle; how its sensor is mounted comes on top
   bool hover;       ///< these logs hold little more than that: what it does not tell stays as known
+  bool fine_gusts;  ///< gusts in steps as short as a refinement has them
   std::function<void(double, const std::string&)> progress;
 };
 

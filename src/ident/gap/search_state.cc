@@ -21,9 +21,9 @@ SearchState::SearchState(const FlightRecord& of_record, const Vehicle& of_vehicl
     : record(of_record), vehicle(of_vehicle), p(stated), options(asked) {
   fit.tolerance = 0.02;
   fit.noise_rounds = 4;
-  fit.fine_gusts = false;   // sets are compared under a dispersion that is common to them
-  fit.choose_axes = false;  // a force that the model lacks would choose them
-  fit.exact = false;        // to a small share of a standard deviation is enough
+  fit.fine_gusts = options.fine_gusts;  // without, sets are compared under a dispersion common to them
+  fit.choose_axes = false;              // a force that the model lacks would choose them
+  fit.exact = false;                    // to a small share of a standard deviation is enough
   fit.rough_noise = true;
   fit.steps = Steps::longest;
   fit.most_steps = kMostSteps;
