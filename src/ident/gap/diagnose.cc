@@ -242,8 +242,11 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   result.extra["usual_scatter"] = search.usual_scatter();
   Json narrow = Json::array();
   for (const SpectralLine& line : lines)
-    narrow.push_back(
-        {{"channel", line.channel}, {"hz", line.hz}, {"height", line.height}, {"share", line.share}});
+    narrow.push_back({{"channel", line.channel},
+                      {"hz", line.hz},
+                      {"height", line.height},
+                      {"share", line.share},
+                      {"rotor_hz", number(line.rotor_hz)}});
   result.extra["lines"] = narrow;
   Json struck = Json::array();
   for (const Burst& one : jumps)

@@ -107,12 +107,26 @@ bool is_of_no_motion(const FlightRecord& record, const NoiseModel& noise,
   return true;
 }
 
+// Turns a second of the rotors, all together, as states show them.
+double mean_turns(const FlightRecord& record, const FlightFit& fit) {
+  const int rotors = record.layout.motors >= 0 ? record.layout.rotors : 0;
+  double sum = 0, count = 0;
+  for (const FlightState<double>& x : fit.smoother->states())
+    for (int n = 0; n < rotors; ++n)
+      sum += x.motors[static_cast<std::size_t>(n)].Omega / (2 * M_PI), count += 1;
+  return sum / count;
+}
+
+// Where what happens so often shows when it is sampled so often, Hz.
+double folded(double hz, double sampled) { return std::abs(hz - std::round(hz / sampled) * sampled); }
+
 }  // namespace
 
 std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const FlightFit& fit) {
   const auto residuals = fit.smoother->residuals();
   const auto& places = fit.smoother->chunks();
   const auto& states = fit.smoother->states();
+  const double turns = mean_turns(record, fit);
   std::vector<std::vector<SpectralLine>> found(kChannels + 6);
   const auto look_at_sensor = [&](int channel) {
     if (is_slowly_off(record, channel)) return;
@@ -128,9 +142,13 @@ std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const Fligh
       seconds += arc.t[places[k].end] - arc.t[places[k].begin];
     }
     for (const auto& piece : pieces) samples += static_cast<double>(piece.size());
-    if (samples > 512)
-      look_for_line(channel_name(channel), pieces, seconds / samples, false,
-                    found[static_cast<std::size_t>(channel)]);
+    if (samples <= 512) return;
+    std::vector<SpectralLine>& lines = found[static_cast<std::size_t>(channel)];
+    look_for_line(channel_name(channel), pieces, seconds / samples, false, lines);
+    constexpr double kAlike = 0.02;  // of the turns: rotors do not all turn alike, nor all the time
+    for (SpectralLine& line : lines)
+      if (channel < kAttitude && std::abs(folded(turns, samples / seconds) - line.hz) < kAlike * turns)
+        line.rotor_hz = turns;
   };
   static constexpr std::array names = {"Mx", "My", "Mz", "Fx", "Fy", "Fz"};
   const auto look_at_air = [&](int axis) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/core/result.h"
 #include "ident/estimators/flight_fit.h"
 
 namespace ident {
@@ -12,8 +13,10 @@ namespace ident {
 struct SpectralLine {
   std::string channel;  ///< of a measurement, or Fx to Mz of the accelerations from outside
   double hz = 0.0;
-  double height = 0.0;  ///< over the spectrum around it
-  double share = 0.0;   ///< of the channel's residual variance
+  double height = 0.0;     ///< over the spectrum around it
+  double share = 0.0;      ///< of the channel's residual variance
+  double rotor_hz = kNaN;  ///< turns of the rotors a second, where the IMU may show their vibration: as
+                           ///< often, or folded by the rate at which it was sampled
 };
 
 /// Lines of the weighted residuals and of the accelerations that the smoother of `fit` holds, strongest
