@@ -42,6 +42,27 @@ std::array<double, count> quantiles(std::vector<double> values, const std::array
   return out;
 }
 
+// Rows between a jump of more than `limit` and one back that undoes it; single ones are spikes already.
+void add_excursions(const std::vector<double>& t, const std::vector<double>& values,
+                    const std::vector<std::size_t>& rows, double limit, std::vector<std::size_t>& spikes) {
+  const auto jump = [&](std::size_t k) { return values[rows[k + 1]] - values[rows[k]]; };
+  for (std::size_t from = 1; from + 3 < rows.size(); ++from) {
+    const double up = jump(from);
+    if (!(std::abs(up) > limit)) continue;
+    for (std::size_t to = from + 1; to + 1 < rows.size(); ++to) {
+      if (t[rows[to + 1]] - t[rows[from]] > kSudden) break;
+      const double down = jump(to);
+      if (std::abs(up + down) < kAgree * std::abs(up)) {
+        if (to > from + 1)
+          for (std::size_t k = from + 1; k <= to; ++k) spikes.push_back(rows[k]);
+        from = to;
+        break;
+      }
+      if (std::abs(down) > kAgree * std::abs(up)) break;
+    }
+  }
+}
+
 // Rows whose value is a spike.
 std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vector<double>& values) {
   std::vector<std::size_t> rows;
@@ -70,23 +91,7 @@ std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vect
     const auto [low, high] = std::ranges::minmax(around);
     if (high - low < kAgree * std::abs(at(k) - 0.5 * (low + high))) spikes.push_back(rows[k]);
   }
-  // A jump, and one back that undoes it.
-  const auto jump = [&](std::size_t k) { return at(k + 1) - at(k); };
-  for (std::size_t from = 1; from + 3 < rows.size(); ++from) {
-    const double up = jump(from);
-    if (!(std::abs(up) > limit)) continue;
-    for (std::size_t to = from + 1; to + 1 < rows.size(); ++to) {
-      if (t[rows[to + 1]] - t[rows[from]] > kSudden) break;
-      const double down = jump(to);
-      if (std::abs(up + down) < kAgree * std::abs(up)) {
-        if (to > from + 1)
-          for (std::size_t k = from + 1; k <= to; ++k) spikes.push_back(rows[k]);
-        from = to;
-        break;
-      }
-      if (std::abs(down) > kAgree * std::abs(up)) break;
-    }
-  }
+  add_excursions(t, values, rows, limit, spikes);
   const bool accident = static_cast<double>(spikes.size()) < kAccident * static_cast<double>(rows.size());
   return accident ? spikes : std::vector<std::size_t>{};
 }
