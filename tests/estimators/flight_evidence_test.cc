@@ -118,6 +118,24 @@ TEST(HeldOutTraces, FollowTheMeasurementWithTheTrueModelAndLeaveItWithAWrongThru
   EXPECT_LT(rms(plots[0].series[2]), 0.5 * rms(plots[0].series[1]));
 }
 
+TEST(HeldOutTraces, DoNotRunOnWhereTheFlightIsCut) {
+  const Fitted f;
+  FlightRecord cut = f.record;
+  const FlightArc whole = cut.arcs[0];
+  const std::size_t rows = whole.rows();
+  cut.arcs = {whole.piece(0, rows / 3), whole.piece(2 * rows / 3, rows)};
+  const std::vector<Plot> plots =
+      prediction_traces(cut, {"given", f.theta.get(), f.fit.u}, {"found", f.theta.get(), f.fit.u},
+                        f.fit.noise, {kVelocity + 2}, {0.5});
+  ASSERT_EQ(plots.size(), 1U);
+  const Series& measured = plots[0].series[0];
+  const auto gap = std::ranges::find_if(measured.y, [](double y) { return std::isnan(y); });
+  ASSERT_NE(gap, measured.y.end());
+  const double t = measured.x[static_cast<std::size_t>(gap - measured.y.begin())];
+  EXPECT_GT(t, whole.t[rows / 3 - 1]);
+  EXPECT_LT(t, whole.t[2 * rows / 3]);
+}
+
 TEST(Validation, SaysWhereTheStatedConstantsPredictBetterAndOnlyThere) {
   const Fitted f;
   const FlightRecord held_out = held_out_of(f.record, 0.5);

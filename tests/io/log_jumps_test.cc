@@ -48,7 +48,7 @@ TEST(LogJumps, AResetSplitsTheFlight) {
   EXPECT_EQ(path.log.breaks, (std::vector{path.log.t[1199], 20.0}));
   ASSERT_EQ(path.log.warnings.size(), 1U);
   EXPECT_EQ(path.log.warnings[0].code, "jumps");
-  EXPECT_NE(path.log.warnings[0].message.find("1 times, first at t = 11.99 s"), std::string::npos)
+  EXPECT_NE(path.log.warnings[0].message.find("1 in all, first at t = 11.99 s"), std::string::npos)
       << path.log.warnings[0].message;
 }
 

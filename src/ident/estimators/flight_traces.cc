@@ -63,10 +63,12 @@ Series trace_of(const FlightRecord& record, const FlightWindows& windows,
 
 Series measured_trace(const FlightRecord& record, std::size_t channel) {
   Series out{.name = "measured", .style = Style::measured};
-  for (const FlightArc& arc : record.arcs)
+  for (const FlightArc& arc : record.arcs) {
+    if (!out.x.empty()) out.x.push_back((out.x.back() + arc.t.front()) / 2), out.y.push_back(kNaN);
     for (std::size_t i = 0; i < arc.rows(); ++i)
       if (const double y = arc.y[i * kChannels + channel]; std::isfinite(y))
         out.x.push_back(arc.t[i]), out.y.push_back(y);
+  }
   return out;
 }
 

@@ -108,7 +108,7 @@ void split_at_jumps(FlightLog& log, Components sensor, const std::string& name) 
   if (!lasting.empty())
     log.warnings.push_back(
         {"jumps", fmt::format("{}: {}: elsewhere from one sample to the next, as no vehicle moves: an "
-                              "estimator that was reset? The flight is split there ({} times, first at t = "
+                              "estimator that was reset? The flight is split there ({} in all, first at t = "
                               "{:.6g} s)",
                               log.file, name, lasting.size(), log.t[rows[lasting[0].after]])});
 }
