@@ -11,10 +11,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-using testing::flight_of;
-using testing::known_to;
-using testing::published_vehicle;
-using testing::verdict_of;
+using namespace testing;  // flights of support/, not GoogleTest's
 
 // A heavy payload shows its inertia only where it acts: linearised at zero it is a shifted centre of gravity,
 // and then products of inertia.

@@ -13,10 +13,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-using testing::flight_of;
-using testing::known_to;
-using testing::published_vehicle;
-using testing::verdict_of;
+using namespace testing;  // flights of support/, not GoogleTest's
 
 TEST(Diagnosis, PrintedSignsOfPhangAreFoundAsGyroscopicAndRightOnesLeaveNothing) {
   const Vehicle truth = published_vehicle();

@@ -28,15 +28,12 @@ double sensor_delay_of(const std::vector<double>& p, double interval) {
 // motor, say, leaves so little of its state at the start of an arc that the first steps there are wild.
 constexpr std::array kShares = {0.1, 0.0};
 
-// Cost of a chunk beside which those of all others are lost to rounding: nothing flies like that.
-constexpr double kNoFlight = 1e18;
-
 // Rounds without a lower cost after which none will come: residuals that are bent where they are gross
 // promise a fall at every step to and fro.
 constexpr int kInVain = 3;
 
 bool flies(const ChunkResult& result) {
-  if (!(result.cost < kNoFlight) || !result.x_end.body.w_B.allFinite()) return false;
+  if (!std::isfinite(result.cost) || !result.x_end.body.w_B.allFinite()) return false;
   return std::ranges::all_of(result.E, [](double e) { return std::isfinite(e); }) &&
          std::ranges::all_of(result.A, [](double a) { return std::isfinite(a); });
 }

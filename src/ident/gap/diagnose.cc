@@ -19,6 +19,7 @@
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_trim.h"
+#include "ident/gap/cause_alone.h"
 #include "ident/gap/causes_tried.h"
 #include "ident/gap/diagnose_trim.h"
 #include "ident/gap/evidence.h"
@@ -44,42 +45,6 @@ void require_known(const std::vector<std::string>& causes) {
   for (const std::string& cause : causes)
     if (std::ranges::find(known, cause) == known.end())
       throw UsageError(fmt::format("no cause '{}' to leave out{}", cause, did_you_mean(cause, known)));
-}
-
-// The model found with one of its causes only, all else as it is; wind with the drag through which it acts.
-Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, const Candidate& cause) {
-  constexpr double kNothing = -30.0;  // of the logarithm of what is positive
-  Eigen::VectorXd out = u;
-  const std::vector<FreeConstant>& constants = model.theta->constants();
-  for (const Candidate& other : model.adopted) {
-    const bool carries = other.name == "rotor_drag" || other.name == "parasitic_drag";
-    if (same(other, cause) || (carries && cause.name == "wind")) continue;
-    for (std::size_t i = 0; i < constants.size(); ++i) {
-      const FreeConstant& c = constants[i];
-      if (!is_constant_of(other, c, static_cast<int>(i))) continue;
-      const double null = value_without(other, c);
-      const auto k = static_cast<Eigen::Index>(i);
-      if (c.positive)
-        out[k] = null > 0 ? std::log(null / c.start) : kNothing;
-      else
-        out[k] = (null - c.start) / c.scale;
-    }
-  }
-  return out;
-}
-
-// Those of `all` that begin where one of `some` does.
-std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& all,
-                                           const std::vector<PredictionWindow>& some) {
-  std::vector<PredictionWindow> out;
-  auto next = all.begin();
-  for (const PredictionWindow& one : some) {
-    next = std::find_if(next, all.end(),
-                        [&](const PredictionWindow& w) { return w.log == one.log && w.t == one.t; });
-    if (next == all.end()) break;
-    out.push_back(*next);
-  }
-  return out;
 }
 
 // Probabilities are among the causes of the catalogue. Where those found are not named they are less than
@@ -301,7 +266,8 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   require_turning(record.signals);
   if (std::optional<Diagnosis> seen = diagnosed(vehicle, logs, options, {p, record, tested}, result, false))
     return std::move(*seen);
-  return std::move(*diagnosed(vehicle, logs, options, {p, record, tested}, result, true));
+  return std::move(*diagnosed(vehicle, logs, options, {std::move(p), std::move(record), std::move(tested)},
+                              std::move(result), true));
 }
 
 }  // namespace ident

@@ -51,8 +51,7 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
   else if (!lines.empty() && std::isfinite(lines[0].rotor_hz))
     out.sentence = fmt::format(
         "Something vibrates at {} Hz (seen in {}), which is where the {} turns a second of the rotors show: "
-        "a "
-        "propeller out of balance, or a sensor that feels all of them. Balance the propellers, or log what "
+        "a propeller out of balance, or a sensor that feels all of them. Balance the propellers, or log what "
         "went through a filter.",
         format_number(lines[0].hz, 3), lines[0].channel, format_number(lines[0].rotor_hz, 3));
   else if (!lines.empty())
