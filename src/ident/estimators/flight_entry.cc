@@ -12,6 +12,7 @@
 #include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_streams.h"
+#include "ident/estimators/flight_vibration.h"
 #include "ident/estimators/flight_whitening.h"
 
 namespace ident {
@@ -92,13 +93,17 @@ std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const F
 
 FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> given, Result& result) {
   const std::vector<FlightLog> alike = with_like_inputs(given, result.warnings);
-  const std::span<const FlightLog> logs = alike.empty() ? given : std::span<const FlightLog>(alike);
+  const std::span<const FlightLog> given_logs = alike.empty() ? given : std::span<const FlightLog>(alike);
   const auto tell = [&](const std::vector<Warning>& warnings) {
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   };
   FlightEntry entry;
-  entry.p = starting_constants(vehicle, logs, result.warnings);
-  entry.record = make_flight_record(vehicle, entry.p, logs);
+  entry.p = starting_constants(vehicle, given_logs, result.warnings);
+  entry.record = make_flight_record(vehicle, entry.p, given_logs);
+  const std::vector<FlightLog> still =
+      without_vibration(entry.record, given_logs, entry.vibration, result.warnings);
+  const std::span<const FlightLog> logs = still.empty() ? given_logs : std::span<const FlightLog>(still);
+  if (!still.empty()) entry.record = make_flight_record(vehicle, entry.p, logs);
   const std::vector<FlightLog> aligned = aligned_streams(entry.record, logs, vehicle.g, result.warnings);
   const std::span<const FlightLog> in_time = aligned.empty() ? logs : std::span<const FlightLog>(aligned);
   // Without attitude nothing tells how late a filter made each sensor, and how many samples of each count

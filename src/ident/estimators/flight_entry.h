@@ -8,6 +8,7 @@
 #include "ident/core/result.h"
 #include "ident/data/flight_log.h"
 #include "ident/estimators/flight_record.h"
+#include "ident/estimators/flight_vibration.h"
 
 namespace ident {
 
@@ -15,6 +16,7 @@ struct FlightEntry {
   std::vector<double> p;        ///< constants to start from
   FlightRecord record;          ///< refers to the vehicle of the call
   std::vector<Warning> tested;  ///< what the self-test of frames and signs found
+  Vibration vibration;          ///< that was taken out of rates and specific force
 };
 
 /// Reads the logs into a record and tells `result` their names and warnings. Throws DataError when they hold

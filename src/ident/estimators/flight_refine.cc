@@ -152,7 +152,8 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   }
 }
 
-Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise) {
+Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise,
+                    const Vibration& vibration) {
   Section section;
   section.title = "Data health";
   for (const FlightLog& log : logs)
@@ -170,16 +171,22 @@ Section data_health(const FlightRecord& record, std::span<const FlightLog> logs,
                             channel_unit(c), std::to_string(samples)});
   }
   section.tables.push_back(table);
+  if (vibration.found()) {
+    Table felt{"Vibration by rotor, at the usual speed", {"rotor", "times the sensors' noise"}, {}};
+    for (std::size_t n = 0; n < vibration.of_rotor.size(); ++n)
+      felt.rows.push_back({std::to_string(n + 1), format_number(vibration.of_rotor[n], 2)});
+    section.tables.push_back(felt);
+  }
   return section;
 }
 
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   Result result;
   result.command = "flightlog";
-  auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);
   if (only_trim(record.signals)) {
     refine_trim(result, record, p, options.free);
-    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    result.sections.push_back(data_health(record, logs, initial_noise(record), vibration));
     if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
     return result;
   }
@@ -245,7 +252,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
         result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
                                               theta.name(k), theta.name(i), result.correlation(i, k)));
   if (options.shown != Shown::numbers) {
-    result.sections.push_back(data_health(record, logs, fit.noise));
+    result.sections.push_back(data_health(record, logs, fit.noise, vibration));
     result.sections.push_back(flight_residuals(record, fit));
     result.sections.push_back(outside_accelerations(record, fit));
   }

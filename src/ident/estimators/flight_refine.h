@@ -11,6 +11,7 @@
 #include "ident/data/flight_log.h"
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_prediction.h"
+#include "ident/estimators/flight_vibration.h"
 
 namespace ident {
 
@@ -54,6 +55,7 @@ void warn_of_disagreement(Result& result, std::string_view advice);
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit);
 
 /// Data health: rates, arcs, noise levels, units and frames as they were decided.
-Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise);
+Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise,
+                    const Vibration& vibration);
 
 }  // namespace ident

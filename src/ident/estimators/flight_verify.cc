@@ -57,11 +57,11 @@ std::array<double, kChannels> largest_of(const FlightRecord& record) {
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon) {
   Result result;
   result.command = "flightlog";
-  auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);
   for (FlightArc& arc : record.arcs) arc.speed_errors = nullptr;  // nothing but the model pushes here
   if (only_trim(record.signals)) {
     verify_trim(result, record, p);
-    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    result.sections.push_back(data_health(record, logs, initial_noise(record), vibration));
     if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
     return result;
   }
@@ -142,7 +142,7 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
   result.fit["seconds"] = record.duration;
   result.fit["windows"] = smoother.chunks().size();
   result.fit["ran_away"] = ran_away;
-  result.sections.push_back(data_health(record, logs, noise));
+  result.sections.push_back(data_health(record, logs, noise, vibration));
   result.sections.push_back(section);
   result.verdict =
       fmt::format("The model as stated was run against {:.0f} s of flight in windows of {:.2g} s.",

@@ -27,6 +27,7 @@
 #include "ident/gap/generic_rival.h"
 #include "ident/gap/input_smoothing.h"
 #include "ident/gap/model_search.h"
+#include "ident/gap/out_of_balance.h"
 #include "ident/gap/residual_wrench.h"
 #include "ident/gap/verdict.h"
 
@@ -96,7 +97,7 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
 std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
                                    const GapOptions& options, FlightEntry entry, Result begun,
                                    bool fine_gusts) {
-  auto [p, record, tested] = std::move(entry);
+  auto [p, record, tested, vibration] = std::move(entry);
   Diagnosis out{std::move(begun), {}};
   Result& result = out.result;
   const bool noisy_input = has_noisy_input(record), hover = is_hover(tested);
@@ -163,6 +164,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
   if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);
+  verdict = with_vibration(std::move(verdict), vibration);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
   if (doubtful && !fine_gusts && gusts_may_be_all(record, search, gap)) return std::nullopt;
@@ -213,6 +215,12 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
                       {"share", line.share},
                       {"rotor_hz", number(line.rotor_hz)}});
   result.extra["lines"] = narrow;
+  if (vibration.found())
+    result.extra["vibration"] = {{"rates", vibration.rates},
+                                 {"force", vibration.force},
+                                 {"speeds", vibration.speeds},
+                                 {"of_rotor", vibration.of_rotor},
+                                 {"stands_out", vibration.stands_out()}};
   Json struck = Json::array();
   for (const Burst& one : jumps)
     struck.push_back({{"channel", one.channel},
@@ -235,7 +243,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
       evidence_of(record, search, {held_out, stated, u_best, noise, a.back(), b.back()}, options.shown);
   result.extra["signatures"] = to_json(evidence.signatures);
   result.sections = gap_sections(result.extra, before, after, evidence);
-  result.sections.push_back(data_health(record, logs, search.best.fit.noise));
+  result.sections.push_back(data_health(record, logs, search.best.fit.noise, vibration));
   out.adopted = hover ? vehicle : adopted_vehicle(vehicle, search.best);
   return out;
 }
@@ -248,7 +256,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   result.schema = "ident.gap/1";
   result.command = "gap";
   require_known(options.exclude);
-  auto [p, record, tested] = enter_flight(vehicle, logs, result);
+  auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);
   if (only_trim(record.signals)) {
     out.adopted = diagnose_trim(result, record, p, options.exclude);
     if (const std::string wrong = disqualified(tested); !wrong.empty()) {
@@ -260,13 +268,15 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
       distrust(result, wrong);
     }
     if (result.extra["verdict"]["status"] == "unknown") trust_less(result.extra["candidates"], {});
-    result.sections.push_back(data_health(record, logs, initial_noise(record)));
+    result.sections.push_back(data_health(record, logs, initial_noise(record), vibration));
     return out;
   }
   require_turning(record.signals);
-  if (std::optional<Diagnosis> seen = diagnosed(vehicle, logs, options, {p, record, tested}, result, false))
+  if (std::optional<Diagnosis> seen =
+          diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, false))
     return std::move(*seen);
-  return std::move(*diagnosed(vehicle, logs, options, {std::move(p), std::move(record), std::move(tested)},
+  return std::move(*diagnosed(vehicle, logs, options,
+                              {std::move(p), std::move(record), std::move(tested), std::move(vibration)},
                               std::move(result), true));
 }
 

@@ -1,0 +1,62 @@
+// Windows of an inertial sensor's samples, and the tones that turning rotors would leave in them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "ident/estimators/flight_record.h"
+
+namespace ident {
+
+/// Samples of one sensor over a short time, in units of its noise.
+struct ToneWindow {
+  std::size_t arc = 0;
+  std::vector<std::size_t> rows;
+  Eigen::MatrixXd slow;   ///< orthonormal: what may be motion
+  Eigen::MatrixXd taken;  ///< [column of slow][axis] share of its variance that is motion in this log
+  Eigen::MatrixXd y;      ///< [sample][axis]
+
+  /// Columns over the samples, multiplied by the inverse of the covariance of motion and noise.
+  Eigen::MatrixXd weighted(const Eigen::MatrixXd& x, Eigen::Index axis) const {
+    return x - slow * (taken.col(axis).asDiagonal() * (slow.transpose() * x));
+  }
+};
+
+/// All windows of a sensor, each of so many seconds, and the noise of its axes.
+struct ToneWindows {
+  std::vector<ToneWindow> windows;
+  Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
+};
+
+/// Windows of the three axes from channel `group` on, one after the other from `begin` s after the start of
+/// each arc. Those with too few samples for a band above that of motion are left out.
+ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin = 0.0);
+
+/// Whether the spectrum of a sensor has anything above that of motion that stands out of its own median. For
+/// a first look: a filter's slope does as well.
+bool has_uneven_spectrum(const FlightRecord& record, int group);
+
+/// Turns of the rotors at the rows of a record; refers to it.
+class TurningRotors {
+ public:
+  /// By speeds as measured, or else as simulated from the commands.
+  explicit TurningRotors(const FlightRecord& record);
+
+  int count() const { return count_; }
+  bool measured() const { return measured_; }
+
+  /// exp(i angle) since the first sample of a window: [sample][rotor]; `scale` corrects the speeds.
+  Eigen::ArrayXXcd turned(const ToneWindow& window, double scale) const;
+  /// Square of each rotor's speed in a window over the usual one, as which amplitudes grow; 0 of one that
+  /// idles.
+  Eigen::VectorXd sizes(const ToneWindow& window) const;
+
+ private:
+  const FlightRecord* record_;
+  std::vector<std::vector<std::vector<double>>> speed_, angle_;  // [arc][rotor][row]
+  double usual_ = 0.0;                                           // rad/s
+  int count_ = 0;
+  bool measured_ = false;
+};
+
+}  // namespace ident

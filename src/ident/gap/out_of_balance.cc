@@ -1,0 +1,29 @@
+// What an unbalanced blade does beside shaking is not known, and nothing in the catalogue shakes.
+#include "ident/gap/out_of_balance.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace ident {
+
+Judged with_vibration(Judged verdict, const Vibration& vibration) {
+  if (vibration.stands_out() == 0) return verdict;
+  const std::string shakes = "Something shakes this vehicle that no cause of the catalogue explains: " +
+                             vibration.what_stands_out() + ". Balance it, and fly again.";
+  if (verdict.status == "unknown") {
+    verdict.sentence = shakes + " " + verdict.sentence;
+    return verdict;
+  }
+  if (!verdict.effects.empty())
+    verdict.sentence =
+        fmt::format("{} The nearest cause beside that is {}.", shakes, fmt::join(verdict.effects, " with "));
+  else
+    verdict.sentence = shakes;
+  verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(), verdict.effects.end());
+  verdict.refused = !verdict.effects.empty();
+  verdict.effects.clear();
+  verdict.status = "unknown";
+  return verdict;
+}
+
+}  // namespace ident

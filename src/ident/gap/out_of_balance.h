@@ -1,0 +1,12 @@
+// A propeller that shakes the vehicle more than the others do.
+#pragma once
+
+#include "ident/estimators/flight_vibration.h"
+#include "ident/gap/verdict.h"
+
+namespace ident {
+
+/// A verdict of a flight with that vibration: none but `unknown` while one rotor stands out.
+Judged with_vibration(Judged verdict, const Vibration& vibration);
+
+}  // namespace ident
