@@ -1,10 +1,10 @@
 // Cosines over a window hold what is slow; angles of rotors are integrals of their speeds.
 #include "ident/estimators/flight_tones.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
@@ -48,42 +48,56 @@ std::vector<double> angle_of(const std::vector<double>& t, const std::vector<dou
   return out;
 }
 
+// Cosines over samples (DCT-II), slow ones first, by how many samples there are: where some were lost they
+// are as smooth.
+using Cosines = std::map<Index, std::shared_ptr<const MatrixXd>>;
+
+const std::shared_ptr<const MatrixXd>& slow_cosines(Cosines& cache, Index samples, Index slow) {
+  std::shared_ptr<const MatrixXd>& found = cache[samples];
+  if (found) return found;
+  MatrixXd out(samples, slow);
+  for (Index i = 0; i < samples; ++i)
+    for (Index k = 0; k < slow; ++k)
+      out(i, k) = std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
+                           static_cast<double>(samples));
+  out.colwise().normalize();
+  return found = std::make_shared<const MatrixXd>(std::move(out));
+}
+
 // The window of those rows; without samples where they are too few.
-ToneWindow window_of(const FlightArc& arc, std::vector<std::size_t> rows, int group, Index slow) {
+ToneWindow window_of(const FlightArc& arc, std::vector<std::size_t> rows, int group, Index slow,
+                     Cosines& cosines) {
   ToneWindow w;
   const auto samples = static_cast<Index>(rows.size());
   if (samples < std::max(kFewest, slow + kFewestFast)) return w;
   w.rows = std::move(rows);
-  MatrixXd cosines(samples, slow);
   w.y.resize(samples, 3);
-  const double t0 = arc.t[w.rows.front()], span = arc.t[w.rows.back()] - t0;
-  for (Index s = 0; s < samples; ++s) {
-    const std::size_t row = w.rows[static_cast<std::size_t>(s)];
-    const double turned = std::numbers::pi * (arc.t[row] - t0) / span;
-    cosines(s, 0) = 1, cosines(s, 1) = std::cos(turned);
-    for (Index k = 2; k < slow; ++k)
-      cosines(s, k) = 2 * cosines(s, 1) * cosines(s, k - 1) - cosines(s, k - 2);
-    for (Index c = 0; c < 3; ++c) w.y(s, c) = arc.y[row * kChannels + static_cast<std::size_t>(group + c)];
-  }
-  w.slow = cosines.householderQr().householderQ() * MatrixXd::Identity(samples, slow);
+  for (Index s = 0; s < samples; ++s)
+    for (Index c = 0; c < 3; ++c)
+      w.y(s, c) =
+          arc.y[w.rows[static_cast<std::size_t>(s)] * kChannels + static_cast<std::size_t>(group + c)];
+  w.slow = slow_cosines(cosines, samples, slow);
   return w;
 }
 
 // Noise of the axes by what is faster than motion, and which share of each slow cosine is motion.
-void weigh(const FlightRecord& record, ToneWindows& sensor) {
+void weigh(const FlightRecord& record, ToneWindows& sensor, const Eigen::Vector3d* sigma) {
   Eigen::Vector3d square = Eigen::Vector3d::Zero();
   double left = 0;
   std::vector<MatrixXd> slow(static_cast<std::size_t>(record.logs));  // [log][column][axis] squares
   std::vector<double> count(slow.size(), 0.0);
   for (const ToneWindow& w : sensor.windows) {
     const auto log = static_cast<std::size_t>(record.arcs[w.arc].log);
-    const MatrixXd c = w.slow.transpose() * w.y;
+    const MatrixXd c = w.slow->transpose() * w.y;
     square += (w.y.colwise().squaredNorm() - c.colwise().squaredNorm()).transpose();
-    left += static_cast<double>(w.slow.rows() - w.slow.cols());
+    left += static_cast<double>(w.slow->rows() - w.slow->cols());
     slow[log] = count[log] == 0 ? MatrixXd(c.cwiseAbs2()) : MatrixXd(slow[log] + c.cwiseAbs2());
     count[log] += 1;
   }
-  if (left > 0) sensor.sigma = (square / left).cwiseMax(1e-24).cwiseSqrt();
+  if (sigma)
+    sensor.sigma = *sigma;
+  else if (left > 0)
+    sensor.sigma = (square / left).cwiseMax(1e-24).cwiseSqrt();
   for (std::size_t log = 0; log < slow.size(); ++log) {
     const Eigen::RowVector3d noise = sensor.sigma.cwiseAbs2().transpose() * count[log];
     // Motion fades with frequency; what rises again is a tone.
@@ -95,13 +109,17 @@ void weigh(const FlightRecord& record, ToneWindows& sensor) {
   for (ToneWindow& w : sensor.windows) {
     w.taken = slow[static_cast<std::size_t>(record.arcs[w.arc].log)];
     w.y *= sensor.sigma.cwiseInverse().asDiagonal();
+    w.told.resize(w.y.rows(), 3);
+    for (Index axis = 0; axis < 3; ++axis) w.told.col(axis) = w.weighted(w.y.col(axis), axis);
   }
 }
 
 }  // namespace
 
-ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin) {
+ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin,
+                         const Eigen::Vector3d* sigma) {
   ToneWindows out;
+  Cosines cosines;
   const auto slow = static_cast<Index>(std::ceil(2 * fastest_motion(record) * seconds)) + 1;
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
@@ -114,11 +132,11 @@ ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, 
       std::vector<std::size_t> rows;
       for (; i < arc.rows() && arc.t[i] < from + seconds; ++i)
         if (is_sampled(i)) rows.push_back(i);
-      if (ToneWindow w = window_of(arc, std::move(rows), group, slow); !w.rows.empty())
+      if (ToneWindow w = window_of(arc, std::move(rows), group, slow, cosines); !w.rows.empty())
         w.arc = a, out.windows.push_back(std::move(w));
     }
   }
-  weigh(record, out);
+  weigh(record, out, sigma);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "ident/estimators/flight_record.h"
@@ -12,13 +13,14 @@ namespace ident {
 struct ToneWindow {
   std::size_t arc = 0;
   std::vector<std::size_t> rows;
-  Eigen::MatrixXd slow;   ///< orthonormal: what may be motion
+  std::shared_ptr<const Eigen::MatrixXd> slow;  ///< orthonormal: what may be motion
   Eigen::MatrixXd taken;  ///< [column of slow][axis] share of its variance that is motion in this log
   Eigen::MatrixXd y;      ///< [sample][axis]
+  Eigen::MatrixXd told;   ///< the same, weighted()
 
   /// Columns over the samples, multiplied by the inverse of the covariance of motion and noise.
   Eigen::MatrixXd weighted(const Eigen::MatrixXd& x, Eigen::Index axis) const {
-    return x - slow * (taken.col(axis).asDiagonal() * (slow.transpose() * x));
+    return x - *slow * (taken.col(axis).asDiagonal() * (slow->transpose() * x));
   }
 };
 
@@ -29,8 +31,10 @@ struct ToneWindows {
 };
 
 /// Windows of the three axes from channel `group` on, one after the other from `begin` s after the start of
-/// each arc. Those with too few samples for a band above that of motion are left out.
-ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin = 0.0);
+/// each arc; `sigma` as another such call found it. Those with too few samples for a band above that of
+/// motion are left out.
+ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin = 0.0,
+                         const Eigen::Vector3d* sigma = nullptr);
 
 /// Whether the spectrum of a sensor has anything above that of motion that stands out of its own median. For
 /// a first look: a filter's slope does as well.
@@ -44,6 +48,7 @@ class TurningRotors {
 
   int count() const { return count_; }
   bool measured() const { return measured_; }
+  double usual() const { return usual_; }  ///< speed, rad/s
 
   /// exp(i angle) since the first sample of a window: [sample][rotor]; `scale` corrects the speeds.
   Eigen::ArrayXXcd turned(const ToneWindow& window, double scale) const;

@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <numeric>
 
 #include "ident/core/format_number.h"
 #include "ident/core/parallel.h"
+#include "ident/estimators/flight_tone_search.h"
 #include "ident/estimators/flight_tone_sizes.h"
 #include "ident/estimators/statistics.h"
 
@@ -25,88 +24,16 @@ using Eigen::Vector3d;
 
 // Of a window, at least; speeds that are simulated are off by more.
 constexpr double kSeconds = 0.25, kSecondsSimulated = 0.125, kSamples = 40;
-constexpr double kBeyondDoubt = 6.0;  // standard deviations,
-constexpr double kLikely = 3.5;       // and where another tone is there beyond doubt
-// By which simulated speeds may be off, and steps in which that is looked for.
-constexpr double kFarthest = 0.1, kStep = 0.005, kFineStep = 0.0005;
 constexpr double kAlone = 10.0;     // nats by which all rotors explain more than one
 constexpr double kStandsOut = 3.0;  // times the amplitude of the usual rotor
 
-// Multiples of the turns that sensors feel: balance, and blades that pass.
-constexpr std::array kToneOrders = {1, 2, 3};
-
-using Components = std::array<std::vector<double>, 3>;
-
 struct Sensor {
-  Components FlightLog::*member;
+  std::array<std::vector<double>, 3> FlightLog::*member;
   int group;
   bool logged;
   ToneWindows windows;
   std::vector<int> orders;  // of the tones it feels
 };
-
-// By how much tones stand above what is beside them, and its standard deviation.
-struct Above {
-  double power = 0.0, std = 0.0;
-  double all = 0.0;  // with what is beside them
-
-  bool beyond(double deviations) const { return power > deviations * std; }
-};
-
-// Of each order. Beside one tone there may be another: what is usual beside it counts.
-std::array<Above, kToneOrders.size()> above_its_sides(const TurningRotors& rotors, const ToneWindows& sensor,
-                                                      double scale) {
-  static constexpr std::array kSides = {0.0, -4.0, -2.5, -1.5, 1.5, 2.5, 4.0};  // widths of a window's line
-  using Powers = std::array<double, kSides.size()>;
-  std::array<std::vector<Powers>, kToneOrders.size()> found;
-  for (const ToneWindow& w : sensor.windows) {
-    const Eigen::ArrayXXcd turned = rotors.turned(w, scale);
-    const Eigen::VectorXcd sizes = rotors.sizes(w).cast<std::complex<double>>();
-    Eigen::MatrixXcd y(w.y.rows(), 3);
-    for (Index axis = 0; axis < 3; ++axis)
-      y.col(axis) = w.weighted(w.y.col(axis), axis).cast<std::complex<double>>();
-    Eigen::ArrayXXcd aside(w.y.rows(), static_cast<Index>(kSides.size()));
-    for (Index i = 0; i < aside.rows(); ++i)
-      for (std::size_t side = 0; side < kSides.size(); ++side)
-        aside(i, static_cast<Index>(side)) =
-            std::polar(1.0, 2 * std::numbers::pi * kSides[side] * static_cast<double>(i) /
-                                static_cast<double>(aside.rows()));
-    for (std::size_t k = 0; k < kToneOrders.size(); ++k) {
-      const Eigen::ArrayXXcd tone = turned.pow(kToneOrders[k]);
-      Powers& powers = found[k].emplace_back();
-      for (std::size_t side = 0; side < kSides.size(); ++side)
-        powers[side] = (sizes.asDiagonal() *
-                        ((tone.colwise() * aside.col(static_cast<Index>(side))).matrix().adjoint() * y))
-                           .squaredNorm();
-    }
-  }
-  std::array<Above, kToneOrders.size()> out;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    Powers sums{};
-    for (const Powers& powers : found[k])
-      for (std::size_t side = 0; side < kSides.size(); ++side) sums[side] += powers[side];
-    std::vector<double> beside(sums.begin() + 1, sums.end());
-    const double usual = median(beside), n = static_cast<double>(found[k].size());
-    out[k].all = sums[0], out[k].power = sums[0] - usual;
-    for (const Powers& powers : found[k]) out[k].std += std::pow(powers[0] - usual / n - out[k].power / n, 2);
-    out[k].std = std::sqrt(out[k].std);
-  }
-  return out;
-}
-
-// What gives the most, of scales about 1.
-double likeliest_scale(const std::function<double(double)>& power) {
-  double best = 1.0, half = kFarthest;
-  for (const double step : {kStep, kFineStep}) {
-    const double first = best - half;
-    std::vector<double> found(static_cast<std::size_t>(2 * std::round(half / step) + 1));
-    in_parallel(found.size(),
-                [&](std::size_t i) { found[i] = power(first + static_cast<double>(i) * step); });
-    best = first + static_cast<double>(std::ranges::max_element(found) - found.begin()) * step;
-    half = step;
-  }
-  return best;
-}
 
 // Takes the tones out of a sensor of the logs: windows that overlap by half, each fading out to its ends.
 void take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Sensor& sensor,
@@ -115,10 +42,13 @@ void take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Se
   for (const FlightArc& arc : record.arcs) sums.emplace_back(arc.rows(), Eigen::Vector4d::Zero());
   const Vector3d& sigma = sensor.windows.sigma;
   for (const double begin : {-0.5 * seconds, 0.0}) {
-    ToneWindows shifted = tone_windows(record, sensor.group, seconds, begin);
-    for (ToneWindow& w : shifted.windows) {
-      w.y *= shifted.sigma.cwiseQuotient(sigma).asDiagonal();
-      const MatrixXd tones = sizes.expected(w);
+    const std::vector<ToneWindow> windows =
+        tone_windows(record, sensor.group, seconds, begin, &sigma).windows;
+    std::vector<MatrixXd> expected(windows.size());
+    in_parallel(windows.size(), [&](std::size_t k) { expected[k] = sizes.expected(windows[k]); });
+    for (std::size_t k = 0; k < windows.size(); ++k) {
+      const ToneWindow& w = windows[k];
+      const MatrixXd& tones = expected[k];
       const std::vector<double>& t = record.arcs[w.arc].t;
       const double from = t[w.rows.front()], span = t[w.rows.back()] - from;
       for (std::size_t i = 0; i < w.rows.size(); ++i) {
@@ -184,39 +114,28 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   in_parallel(sensors.size(), [&](std::size_t k) {
     if (sensors[k].logged) sensors[k].windows = tone_windows(record, sensors[k].group, seconds);
   });
-  const auto power = [&](double scale) {
-    double sum = 0;
-    for (const Sensor& sensor : sensors)
-      for (const Above& order : above_its_sides(rotors, sensor.windows, scale)) sum += order.all;
-    return sum;
-  };
-  const double scale = rotors.measured() ? 1.0 : likeliest_scale(power);
+  const double scale =
+      rotors.measured() ? 1.0 : likeliest_scale(rotors, {&sensors[0].windows, &sensors[1].windows}, seconds);
   bool found = false;
   for (Sensor& sensor : sensors) {
-    const auto above = above_its_sides(rotors, sensor.windows, scale);
-    for (std::size_t k = 0; k < above.size(); ++k) {
-      found |= above[k].beyond(kBeyondDoubt);
-      if (above[k].beyond(kLikely)) sensor.orders.push_back(kToneOrders[k]);
-    }
+    TonesFound tones = tones_that_stand_out(rotors, sensor.windows, scale);
+    found |= !tones.beyond_doubt.empty(), sensor.orders = std::move(tones.likely);
   }
   if (!found) return {};
 
   std::vector<FlightLog> out(logs.begin(), logs.end());
-  std::vector<int> all(static_cast<std::size_t>(rotors.count()));
-  std::iota(all.begin(), all.end(), 0);
   Eigen::VectorXd square = Eigen::VectorXd::Zero(rotors.count()), alone = square;
   double together = 0;
   for (const Sensor& sensor : sensors) {
     if (sensor.orders.empty()) continue;
-    const ToneSizes sizes(rotors, sensor.windows, all, sensor.orders, scale);
+    const ToneSizes sizes(rotors, sensor.windows, sensor.orders, scale);
     together += sizes.log_likelihood();
     for (Index k = 0; k < sizes.variance().rows(); ++k)
       square[k % rotors.count()] += sizes.variance().row(k).sum();
     const Vector3d of_axis = sizes.variance().colwise().sum();
     (sensor.group == kGyro ? vibration.rates : vibration.force) =
         std::sqrt(of_axis.dot(sensor.windows.sigma.cwiseAbs2()) / 3);
-    for (int n = 0; n < rotors.count(); ++n)
-      alone[n] += ToneSizes(rotors, sensor.windows, {n}, sensor.orders, scale).log_likelihood();
+    for (int n = 0; n < rotors.count(); ++n) alone[n] += sizes.log_likelihood_of(n);
     take_out(record, out, sensor, sizes, seconds);
   }
   vibration.speeds = scale;

@@ -1,0 +1,98 @@
+// Power at the tones, against that some widths of a line beside them.
+#include "ident/estimators/flight_tone_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "ident/core/parallel.h"
+#include "ident/estimators/statistics.h"
+
+namespace ident {
+namespace {
+
+using Eigen::Index;
+
+constexpr int kOrders = 3;            // the balance of a propeller, and two or three blades that pass
+constexpr double kBeyondDoubt = 6.0;  // standard deviations
+constexpr double kLikely = 3.5;
+constexpr double kFarthest = 0.1;  // by which simulated speeds may be off
+
+// Of each order, at `aside` Hz times seconds of the window from the tones, by each of them.
+template <std::size_t Sides>
+std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rotors, const ToneWindow& w,
+                                                        double scale,
+                                                        const std::array<double, Sides>& asides) {
+  const Eigen::ArrayXXcd turned = rotors.turned(w, scale);
+  const Eigen::VectorXd sizes = rotors.sizes(w);
+  const auto samples = static_cast<double>(w.y.rows());
+  std::array<std::array<double, Sides>, kOrders> out{};
+  Eigen::ArrayXcd aside = Eigen::ArrayXcd::Ones(w.y.rows());
+  for (std::size_t side = 0; side < Sides; ++side) {
+    for (Index i = 0; i < aside.size() && asides[side] != 0; ++i)
+      aside[i] = std::polar(1.0, 2 * std::numbers::pi * asides[side] * static_cast<double>(i) / samples);
+    for (Index n = 0; n < turned.cols(); ++n) {
+      Eigen::ArrayXcd tone = aside;
+      for (std::size_t k = 0; k < kOrders; ++k) {
+        tone *= turned.col(n);
+        const Eigen::MatrixX3d& y = w.told;
+        const double power = (y.transpose() * tone.real().matrix()).squaredNorm() +
+                             (y.transpose() * tone.imag().matrix()).squaredNorm();
+        out[k][side] += sizes[n] * sizes[n] * power;
+      }
+    }
+    aside.setOnes();
+  }
+  return out;
+}
+
+}  // namespace
+
+TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& sensor, double scale) {
+  static constexpr std::array kSides = {0.0, -4.0, -2.5, -1.5, 1.5, 2.5, 4.0};
+  std::vector<std::array<std::array<double, kSides.size()>, kOrders>> found(sensor.windows.size());
+  in_parallel(found.size(),
+              [&](std::size_t i) { found[i] = power_of(rotors, sensor.windows[i], scale, kSides); });
+  TonesFound out;
+  for (std::size_t k = 0; k < kOrders; ++k) {
+    std::array<double, kSides.size()> sums{};
+    for (const auto& window : found)
+      for (std::size_t side = 0; side < sums.size(); ++side) sums[side] += window[k][side];
+    // Beside one tone there may be another: what is usual there counts.
+    std::vector<double> beside(sums.begin() + 1, sums.end());
+    const double more = sums[0] - median(beside), n = static_cast<double>(found.size());
+    double square = 0;
+    for (const auto& window : found) square += std::pow(window[k][0] - sums[0] / n, 2);
+    const int order = static_cast<int>(k) + 1;
+    if (more > kBeyondDoubt * std::sqrt(square)) out.beyond_doubt.push_back(order);
+    if (more > kLikely * std::sqrt(square)) out.likely.push_back(order);
+  }
+  return out;
+}
+
+double likeliest_scale(const TurningRotors& rotors, const std::vector<const ToneWindows*>& sensors,
+                       double seconds) {
+  const auto power = [&](double scale) {
+    double sum = 0;
+    for (const ToneWindows* sensor : sensors)
+      for (const ToneWindow& w : sensor->windows)
+        for (const auto& order : power_of<1>(rotors, w, scale, {0.0})) sum += order[0];
+    return sum;
+  };
+  // Half the width of a line of twice the turns, then ever finer.
+  double step = std::numbers::pi / (2 * seconds * rotors.usual()), best = 1.0, half = kFarthest;
+  constexpr double kFinest = 3e-4, kFiner = 4;
+  while (half > kFinest) {
+    const auto each_side = std::max(1.0, std::round(half / step));
+    step = half / each_side;
+    std::vector<double> found(static_cast<std::size_t>(2 * each_side + 1));
+    in_parallel(found.size(),
+                [&](std::size_t i) { found[i] = power(best - half + static_cast<double>(i) * step); });
+    best += static_cast<double>(std::ranges::max_element(found) - found.begin()) * step - half;
+    half = step, step = half / kFiner;
+  }
+  return best;
+}
+
+}  // namespace ident

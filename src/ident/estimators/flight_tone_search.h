@@ -1,0 +1,21 @@
+// Whether an inertial sensor feels the rotors turn, and how fast they do.
+#pragma once
+
+#include <vector>
+
+#include "ident/estimators/flight_tones.h"
+
+namespace ident {
+
+/// Multiples of the rotors' turns whose tones stand out of what is beside them.
+struct TonesFound {
+  std::vector<int> beyond_doubt, likely;  ///< the latter where another one is beyond doubt
+};
+TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& sensor, double scale);
+
+/// By how much rotors turn faster than `rotors` has them, where the most power of all sensors lies at
+/// multiples of their turns: for speeds that are only simulated.
+double likeliest_scale(const TurningRotors& rotors, const std::vector<const ToneWindows*>& sensors,
+                       double seconds);
+
+}  // namespace ident

@@ -1,0 +1,139 @@
+// Tones of rotors are taken out of rates and specific force, by rotor, and nothing else is.
+#include "ident/estimators/flight_vibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ident/core/random.h"
+#include "support/shaken.h"
+
+namespace ident {
+namespace {
+
+using testing::flown;
+using testing::shaken;
+
+struct Freed {
+  Vibration vibration;
+  std::vector<FlightLog> logs;
+  std::vector<Warning> warnings;
+};
+
+Freed freed(const Vehicle& model, const FlightLog& log) {
+  const std::vector<double> p = parameter_vector(model);
+  const std::span<const FlightLog> logs(&log, 1);
+  Freed out;
+  out.logs = without_vibration(make_flight_record(model, p, logs), logs, out.vibration, out.warnings);
+  return out;
+}
+
+// RMS of the difference of two columns.
+double apart(const std::vector<double>& a, const std::vector<double>& b) {
+  double square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) square += std::pow(a[i] - b[i], 2);
+  return std::sqrt(square / static_cast<double>(a.size()));
+}
+
+TEST(Vibration, AQuietFlightIsLeftAlone) {
+  for (const bool speeds : {true, false}) {
+    const FlightLog log = flown(testing::shaken_vehicle(), 1, speeds);
+    const Freed out = freed(testing::shaken_vehicle(), log);
+    EXPECT_TRUE(out.logs.empty()) << speeds;
+    EXPECT_FALSE(out.vibration.found());
+    EXPECT_TRUE(out.warnings.empty());
+    EXPECT_EQ(out.vibration.stands_out(), 0);
+  }
+}
+
+TEST(Vibration, OfAllRotorsIsTakenOutAndNoneStandsOut) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  const FlightLog quiet = flown(vehicle, 2, true), loud = shaken(quiet, {1.0, 1.5, 0.8, 1.2});
+  const Freed out = freed(vehicle, loud);
+  ASSERT_EQ(out.logs.size(), 1u);
+  ASSERT_EQ(out.warnings.size(), 1u);
+  EXPECT_EQ(out.warnings[0].code, "vibration");
+  EXPECT_EQ(out.vibration.stands_out(), 0) << out.vibration.what_stands_out();
+  EXPECT_DOUBLE_EQ(out.vibration.speeds, 1.0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_LT(apart(out.logs[0].f_B[c], quiet.f_B[c]), 0.45 * apart(loud.f_B[c], quiet.f_B[c])) << c;
+    EXPECT_LT(apart(out.logs[0].w_B[c], quiet.w_B[c]), 0.45 * apart(loud.w_B[c], quiet.w_B[c])) << c;
+  }
+  // Each axis and rotor has its share: an RMS over axes by all rotors.
+  double force = 0;
+  for (std::size_t c = 0; c < 3; ++c) force += std::pow(apart(loud.f_B[c], quiet.f_B[c]), 2) / 3;
+  EXPECT_NEAR(out.vibration.force, std::sqrt(force), 0.15 * std::sqrt(force));
+  // In the order in which they were shaken.
+  const std::vector<double>& of = out.vibration.of_rotor;
+  EXPECT_GT(of[1], of[0]);
+  EXPECT_LT(of[2], of[3]);
+}
+
+TEST(Vibration, OneRotorOutOfBalanceIsTold) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  const FlightLog quiet = flown(vehicle, 3, true);
+  const Freed alone = freed(vehicle, shaken(quiet, {0, 0, 0.8, 0}));
+  EXPECT_EQ(alone.vibration.stands_out(), 3);
+  EXPECT_NE(alone.vibration.what_stands_out().find("rotor 3"), std::string::npos);
+  const Freed among = freed(vehicle, shaken(quiet, {0.5, 3.0, 0.4, 0.6}));
+  EXPECT_EQ(among.vibration.stands_out(), 2);
+  EXPECT_FALSE(among.vibration.one_alone);
+  EXPECT_NE(among.vibration.what_stands_out().find("rotor 2"), std::string::npos);
+}
+
+TEST(Vibration, RotorsThatTurnAlikeAreNotToldApart) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  FlightLog log = flown(vehicle, 3, true);
+  for (std::vector<double>& speed : log.Omega) speed = log.Omega[0];
+  const Freed out = freed(vehicle, shaken(log, {0.8, 0, 0, 0}));
+  EXPECT_TRUE(out.vibration.one_alone);
+  EXPECT_GT(out.vibration.stands_out(), 0);
+  EXPECT_NE(out.vibration.what_stands_out().find("do not tell"), std::string::npos)
+      << out.vibration.what_stands_out();
+}
+
+TEST(Vibration, CommandsWithAWrongGainAreCorrectedByTheTonesThemselves) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  Vehicle model = vehicle;
+  model.parameters.at("km").value *= 1.04;
+  const FlightLog log = shaken(flown(vehicle, 4, true), {1.0, 1.5, 0.8, 1.2});
+  FlightLog without = log;
+  without.Omega.clear();
+  const Freed out = freed(model, without);
+  ASSERT_TRUE(out.vibration.found());
+  EXPECT_NEAR(out.vibration.speeds, 1 / 1.04, 0.002);
+  EXPECT_EQ(out.vibration.stands_out(), 0);
+}
+
+// A blade that passes twice a turn is no slower motion and no other line: what is not of the rotors stays.
+TEST(Vibration, ALineThatIsNotOfTheRotorsStays) {
+  FlightLog log = flown(testing::shaken_vehicle(), 5, true);
+  const FlightLog quiet = log;
+  for (std::size_t i = 0; i < log.rows(); ++i) log.f_B[1][i] += 0.3 * std::sin(2 * M_PI * 41.0 * log.t[i]);
+  const Freed out = freed(testing::shaken_vehicle(), log);
+  if (!out.logs.empty()) {
+    EXPECT_GT(apart(out.logs[0].f_B[1], quiet.f_B[1]), 0.9 * apart(log.f_B[1], quiet.f_B[1]));
+  }
+}
+
+TEST(Vibration, LogsWithGapsAndMixedRatesAreTakenAsTheyAre) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  const FlightLog quiet = flown(vehicle, 6, true);
+  FlightLog loud = shaken(quiet, {1.0, 1.5, 0.8, 1.2});
+  for (std::size_t i = 0; i < loud.rows(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (i % 2 == 1) loud.f_B[c][i] = kNaN;  // half as often
+      if (i > 3000 && i < 3100) loud.w_B[c][i] = kNaN;
+    }
+  const Freed out = freed(vehicle, loud);
+  ASSERT_EQ(out.logs.size(), 1u);
+  for (std::size_t i = 0; i < loud.rows(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      ASSERT_EQ(std::isfinite(out.logs[0].f_B[c][i]), std::isfinite(loud.f_B[c][i])) << i;
+      ASSERT_EQ(std::isfinite(out.logs[0].w_B[c][i]), std::isfinite(loud.w_B[c][i])) << i;
+    }
+  EXPECT_EQ(out.vibration.stands_out(), 0);
+}
+
+}  // namespace
+}  // namespace ident

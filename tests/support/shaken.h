@@ -1,0 +1,59 @@
+// Flights whose inertial sensors feel the rotors turn.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "ident/model/simulate.h"
+#include "ident/model/vehicle.h"
+
+namespace ident::testing {
+
+/// A quadrotor whose rotors turn some 75 times a second.
+inline Vehicle shaken_vehicle() {
+  Vehicle v;
+  v.name = "shaken", v.layout = "x", v.arm = 0.17, v.rotors = layout_rotors("x", 0.17, 0.0);
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{{"m", 0.6},
+                                                                                         {"kT", 6.4e-6},
+                                                                                         {"kQ", 1.0e-7},
+                                                                                         {"km", 900},
+                                                                                         {"omega_m", 28},
+                                                                                         {"zeta_m", 0.9},
+                                                                                         {"dead_time", 0.004},
+                                                                                         {"Jxx", 3e-3},
+                                                                                         {"Jyy", 3.2e-3},
+                                                                                         {"Jzz", 5.6e-3},
+                                                                                         {"Jp", 5e-6}})
+    v.parameters[name] = {value, {}};
+  for (const char* name : {"kT", "kQ", "km", "omega_m", "Jxx", "Jyy", "Jzz", "Jp"})
+    v.parameters[name].std = 0.05 * v.parameters[name].value;
+  return v;
+}
+
+inline FlightLog flown(const Vehicle& vehicle, std::uint64_t seed, bool speeds) {
+  SimulationOptions options;
+  options.duration = 30.0, options.rate = 250.0, options.seed = seed;
+  FlightLog log = simulate_flight(vehicle, options).log;
+  if (!speeds) log.Omega.clear();
+  return log;
+}
+
+/// The log, which has rotor speeds, with a tone of each rotor in specific force (amplitude at 450 rad/s,
+/// m/s^2, growing with the square of the speed) and in the rates (a twentieth of that, rad/s), and one at
+/// twice its turns along z.
+inline FlightLog shaken(FlightLog log, const std::vector<double>& amplitude) {
+  for (std::size_t n = 0; n < amplitude.size(); ++n) {
+    double angle = 1.0 + static_cast<double>(n);
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      if (i > 0) angle += 0.5 * (log.Omega[n][i] + log.Omega[n][i - 1]) * (log.t[i] - log.t[i - 1]);
+      const double size = amplitude[n] * std::pow(log.Omega[n][i] / 450, 2);
+      log.f_B[0][i] += size * std::cos(angle), log.f_B[1][i] += size * std::sin(angle);
+      log.f_B[2][i] += 0.4 * size * std::cos(2 * angle);
+      log.w_B[0][i] += 0.05 * size * std::sin(angle), log.w_B[1][i] += 0.05 * size * std::cos(angle);
+      log.w_B[2][i] += 0.02 * size * std::cos(angle + 0.5);
+    }
+  }
+  return log;
+}
+
+}  // namespace ident::testing
