@@ -116,6 +116,28 @@ TEST(Vibration, ALineThatIsNotOfTheRotorsStays) {
   }
 }
 
+// Eighty-five samples a second of some seventy-six turns: motion at times, tones at others.
+TEST(Vibration, WhereTonesPassForMotionNothingCounts) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  const FlightLog quiet = flown(vehicle, 8, true, 85.0), loud = shaken(quiet, {1.0, 1.5, 0.8, 1.2});
+  const Freed out = freed(vehicle, loud);
+  ASSERT_EQ(out.logs.size(), 1u);
+  EXPECT_NE(out.warnings[0].message.find("pass for motion"), std::string::npos) << out.warnings[0].message;
+  double lost = 0, square = 0, before = 0;
+  for (std::size_t i = 0; i < loud.rows(); ++i) {
+    const double left = out.logs[0].f_B[0][i] - quiet.f_B[0][i];
+    ASSERT_EQ(std::isnan(left), std::isnan(out.logs[0].f_B[2][i]));  // all axes of a sensor or none
+    if (std::isnan(left))
+      lost += 1;
+    else
+      square += left * left, before += std::pow(loud.f_B[0][i] - quiet.f_B[0][i], 2);
+  }
+  const auto rows = static_cast<double>(loud.rows());
+  EXPECT_GT(lost, 0.01 * rows);
+  EXPECT_LT(lost, 0.8 * rows);
+  EXPECT_LT(square, 0.5 * before);
+}
+
 TEST(Vibration, LogsWithGapsAndMixedRatesAreTakenAsTheyAre) {
   const Vehicle vehicle = testing::shaken_vehicle();
   const FlightLog quiet = flown(vehicle, 6, true);

@@ -30,9 +30,9 @@ inline Vehicle shaken_vehicle() {
   return v;
 }
 
-inline FlightLog flown(const Vehicle& vehicle, std::uint64_t seed, bool speeds) {
+inline FlightLog flown(const Vehicle& vehicle, std::uint64_t seed, bool speeds, double rate = 250.0) {
   SimulationOptions options;
-  options.duration = 30.0, options.rate = 250.0, options.seed = seed;
+  options.duration = 30.0, options.rate = rate, options.seed = seed;
   FlightLog log = simulate_flight(vehicle, options).log;
   if (!speeds) log.Omega.clear();
   return log;

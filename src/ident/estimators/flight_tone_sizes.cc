@@ -54,6 +54,19 @@ MatrixXd ToneSizes::expected(const ToneWindow& window) const {
   return out;
 }
 
+double ToneSizes::passes_for_motion(const ToneWindow& window, double hz) const {
+  const VectorXd sizes = turning_.sizes(window);
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t o = 0; o < orders_.size(); ++o) {
+    const VectorXd folded = turning_.folded(window, orders_[o], scale_);
+    for (Index n = 0; n < folded.size(); ++n)
+      if (folded[n] < hz)
+        sum +=
+            sizes[n] * sizes[n] * found_.variance.row(static_cast<Index>(o) * folded.size() + n).transpose();
+  }
+  return sum.cwiseQuotient(found_.noise).maxCoeff();
+}
+
 ToneSizes::Told ToneSizes::told_by(const ToneWindow& window, const MatrixXd& tones, Index axis) {
   return {tones.transpose() * window.weighted(tones, axis), tones.transpose() * window.told.col(axis),
           window.y.col(axis).dot(window.told.col(axis)),

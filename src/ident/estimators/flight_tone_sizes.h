@@ -26,6 +26,9 @@ class ToneSizes {
   double log_likelihood_of(int rotor) const;
   /// The tones in a window as far as its samples tell: [sample][axis], in units of the noise.
   Eigen::MatrixXd expected(const ToneWindow& window) const;
+  /// Variance on an axis of those tones in a window that show below so many Hz, where they pass for motion:
+  /// the largest of the axes, in units of the noise.
+  double passes_for_motion(const ToneWindow& window, double hz) const;
 
  private:
   // What a window says of the tones on an axis; samples less those that motion takes.

@@ -212,4 +212,17 @@ Eigen::VectorXd TurningRotors::sizes(const ToneWindow& window) const {
   return out;
 }
 
+Eigen::VectorXd TurningRotors::folded(const ToneWindow& window, int order, double scale) const {
+  const std::vector<double>& t = record_->arcs[window.arc].t;
+  const std::size_t first = window.rows.front(), last = window.rows.back();
+  const double span = t[last] - t[first], rate = static_cast<double>(window.rows.size() - 1) / span;
+  Eigen::VectorXd out(count_);
+  for (Index n = 0; n < count_; ++n) {
+    const std::vector<double>& angle = angle_[window.arc][static_cast<std::size_t>(n)];
+    const double hz = order * scale * (angle[last] - angle[first]) / (2 * std::numbers::pi * span);
+    out[n] = std::abs(hz - std::round(hz / rate) * rate);
+  }
+  return out;
+}
+
 }  // namespace ident

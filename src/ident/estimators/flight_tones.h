@@ -55,6 +55,8 @@ class TurningRotors {
   /// Square of each rotor's speed in a window over the usual one, as which amplitudes grow; 0 of one that
   /// idles.
   Eigen::VectorXd sizes(const ToneWindow& window) const;
+  /// Hz at which `order` times the turns of each rotor show in the samples of a window, folded by their rate.
+  Eigen::VectorXd folded(const ToneWindow& window, int order, double scale) const;
 
  private:
   const FlightRecord* record_;

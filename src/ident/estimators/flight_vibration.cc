@@ -24,6 +24,9 @@ using Eigen::Vector3d;
 
 // Of a window, at least; speeds that are simulated are off by more.
 constexpr double kSeconds = 0.25, kSecondsSimulated = 0.125, kSamples = 40;
+// Hz below which a tone is not told from motion, and its share of the variance of the noise that then
+// matters.
+constexpr double kFolded = 5.0, kMatters = 0.1;
 constexpr double kAlone = 10.0;     // nats by which all rotors explain more than one
 constexpr double kStandsOut = 3.0;  // times the amplitude of the usual rotor
 
@@ -36,8 +39,9 @@ struct Sensor {
 };
 
 // Takes the tones out of a sensor of the logs: windows that overlap by half, each fading out to its ends.
-void take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Sensor& sensor,
-              const ToneSizes& sizes, double seconds) {
+// Gives the share of its samples in which tones pass for motion, and which count as not sampled.
+double take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Sensor& sensor,
+                const ToneSizes& sizes, double seconds) {
   std::vector<std::vector<Eigen::Vector4d>> sums;  // [arc][row]: of weighted tones, and of weights
   for (const FlightArc& arc : record.arcs) sums.emplace_back(arc.rows(), Eigen::Vector4d::Zero());
   const Vector3d& sigma = sensor.windows.sigma;
@@ -49,26 +53,34 @@ void take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Se
     for (std::size_t k = 0; k < windows.size(); ++k) {
       const ToneWindow& w = windows[k];
       const MatrixXd& tones = expected[k];
+      const bool lost = sizes.passes_for_motion(w, kFolded) > kMatters;
       const std::vector<double>& t = record.arcs[w.arc].t;
       const double from = t[w.rows.front()], span = t[w.rows.back()] - from;
       for (std::size_t i = 0; i < w.rows.size(); ++i) {
         const double weight = 0.02 + std::pow(std::sin(std::numbers::pi * (t[w.rows[i]] - from) / span), 2);
         Eigen::Vector4d& sum = sums[w.arc][w.rows[i]];
         sum.head<3>() += weight * tones.row(static_cast<Index>(i)).transpose(), sum[3] += weight;
+        if (lost) sum[0] = sum[1] = sum[2] = kNaN;
       }
     }
   }
+  double samples = 0, left_out = 0;
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
     FlightLog& log = logs[static_cast<std::size_t>(arc.log)];
     const auto first =
         static_cast<std::size_t>(std::ranges::lower_bound(log.t, arc.t.front()) - log.t.begin());
-    for (std::size_t i = 0; i < arc.rows(); ++i)
-      for (std::size_t c = 0; c < 3 && sums[a][i][3] > 0; ++c) {
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      const Eigen::Vector4d& sum = sums[a][i];
+      if (!(sum[3] > 0)) continue;
+      samples += 1, left_out += std::isnan(sum[0]);
+      for (std::size_t c = 0; c < 3; ++c) {
         const auto axis = static_cast<Index>(c);
-        (log.*sensor.member)[c][first + i] -= sums[a][i][axis] / sums[a][i][3] * sigma[axis];
+        (log.*sensor.member)[c][first + i] -= sum[axis] / sum[3] * sigma[axis];
       }
+    }
   }
+  return samples > 0 ? left_out / samples : 0.0;
 }
 
 // Amplitude of the rotor in question over that of the usual one of the others.
@@ -125,7 +137,7 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
 
   std::vector<FlightLog> out(logs.begin(), logs.end());
   Eigen::VectorXd square = Eigen::VectorXd::Zero(rotors.count()), alone = square;
-  double together = 0;
+  double together = 0, left_out = 0;
   for (const Sensor& sensor : sensors) {
     if (sensor.orders.empty()) continue;
     const ToneSizes sizes(rotors, sensor.windows, sensor.orders, scale);
@@ -136,17 +148,21 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
     (sensor.group == kGyro ? vibration.rates : vibration.force) =
         std::sqrt(of_axis.dot(sensor.windows.sigma.cwiseAbs2()) / 3);
     for (int n = 0; n < rotors.count(); ++n) alone[n] += sizes.log_likelihood_of(n);
-    take_out(record, out, sensor, sizes, seconds);
+    left_out = std::max(left_out, take_out(record, out, sensor, sizes, seconds));
   }
   vibration.speeds = scale;
   for (const double x : square) vibration.of_rotor.push_back(std::sqrt(x));
   vibration.one_alone = together - alone.maxCoeff() < kAlone;
+  std::string lost;
+  if (constexpr double kWorthTelling = 0.005; left_out > kWorthTelling)
+    lost = fmt::format("; where they pass for motion, in {:.0f} % of the samples, nothing counts",
+                       100 * std::max(left_out, 0.01));
   warnings.push_back(
       {"vibration",
        fmt::format(
-           "rates and specific force show the rotors turn, by {} rad/s and {} m/s^2: taken out as far "
-           "as it can be told from flight; {}",
-           format_number(vibration.rates, 2), format_number(vibration.force, 2),
+           "rates and specific force show the rotors turn, by {} rad/s and {} m/s^2, which is taken "
+           "out{}; {}",
+           format_number(vibration.rates, 2), format_number(vibration.force, 2), lost,
            vibration.stands_out() > 0 ? vibration.what_stands_out() : "log what went through a filter")});
   return out;
 }
