@@ -108,15 +108,17 @@ int main(int argc, char** argv) {
       {"gusts", {.turbulence = true}},
       {"gusts-drift", {.turbulence = true, .drift = 0.004}},
       {"gusts-filter", {.turbulence = true, .filter = true}},
+      {"gusts-shaken", {.turbulence = true, .shaken = 2.0}},
       {"still-speeds", {.commands = false}},
       {"gusts-speeds", {.turbulence = true, .commands = false}}};
   const auto kind = kinds.find(argc > 2 ? argv[2] : "");
   if (argc < 4 || kind == kinds.end()) {
-    fmt::print(stderr,
-               "usage: refine_campaign COUNT KIND FILE [FIRST_SEED [JOBS]]\n\n"
-               "KIND: still, gusts; gusts-drift with an attitude that drifts, gusts-filter with what a "
-               "filter shows; still-speeds, gusts-speeds without "
-               "commands\n");
+    fmt::print(
+        stderr,
+        "usage: refine_campaign COUNT KIND FILE [FIRST_SEED [JOBS]]\n\n"
+        "KIND: still, gusts; gusts-drift with an attitude that drifts, gusts-filter with what a "
+        "filter shows; gusts-shaken with an IMU that feels the rotors; still-speeds, gusts-speeds without "
+        "commands\n");
     return 2;
   }
   const std::uint64_t first = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;

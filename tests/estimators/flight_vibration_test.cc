@@ -116,6 +116,22 @@ TEST(Vibration, ALineThatIsNotOfTheRotorsStays) {
   }
 }
 
+// Its spectrum is as uneven as that of a shaken sensor.
+TEST(Vibration, NoiseThatWasFilteredIsNoTone) {
+  FlightLog log = flown(testing::shaken_vehicle(), 9, true);
+  Random random(9);
+  for (auto* sensor : {&log.w_B, &log.f_B})
+    for (std::vector<double>& column : *sensor) {
+      double noise = 0;
+      for (double& y : column) {
+        noise = 0.6 * noise + 0.4 * random.normal();
+        y += (sensor == &log.w_B ? 0.02 : 0.4) * noise;
+      }
+    }
+  const Freed out = freed(testing::shaken_vehicle(), log);
+  EXPECT_TRUE(out.logs.empty());
+}
+
 // Eighty-five samples a second of some seventy-six turns: motion at times, tones at others.
 TEST(Vibration, WhereTonesPassForMotionNothingCounts) {
   const Vehicle vehicle = testing::shaken_vehicle();

@@ -10,6 +10,7 @@
 #include "ident/core/random.h"
 #include "ident/estimators/flight_refine.h"
 #include "support/random_vehicle.h"
+#include "support/shaken.h"
 #include "support/slow_errors.h"
 
 namespace ident::flight_campaign {
@@ -74,6 +75,20 @@ SimulatedFlight flown(const Vehicle& v, SimulationOptions options, std::string& 
   }
 }
 
+/// Rotors are not all alike, from half of that amplitude to one and a half.
+void shake(const Case& c, SimulatedFlight& flight) {
+  const std::size_t rotors = c.truth.rotors.size();
+  const SensorNoise sensor = noise_level("typical");
+  std::vector<std::vector<double>> Omega(rotors, std::vector<double>(flight.log.rows()));
+  std::vector<double> amplitude;
+  for (std::size_t n = 0; n < rotors; ++n) {
+    for (std::size_t i = 0; i < flight.log.rows(); ++i) Omega[n][i] = flight.truth[i].motors[n].Omega;
+    const double share = static_cast<double>(n) / static_cast<double>(rotors - 1);
+    amplitude.push_back((0.5 + share) * c.shaken * sensor.accelerometer);
+  }
+  testing::shake(flight.log, Omega, hover_speed(c.truth), amplitude, sensor.gyro / sensor.accelerometer);
+}
+
 void fly(Case& c, double seconds, bool commands) {
   SimulationOptions options;
   options.duration = seconds;
@@ -86,6 +101,7 @@ void fly(Case& c, double seconds, bool commands) {
     c.flights.back().log.file = "log" + std::to_string(i + 1);
     if (!commands) c.flights.back().log.delta.clear();
     if (c.drift.sigma > 0) testing::drift_attitude(c.flights.back().log, c.drift, options.seed);
+    if (c.shaken > 0) shake(c, c.flights.back());
     if (c.filter) testing::estimate(c.flights.back().log, c.truth.g);
   }
 }
@@ -141,7 +157,7 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   c.stated = measured(c.truth, random);
   c.rotor_speeds = random.below(4) != 0 || !options.commands;
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
-  c.drift.sigma = options.drift, c.filter = options.filter;
+  c.drift.sigma = options.drift, c.filter = options.filter, c.shaken = options.shaken;
   c.scenarios = {"mixed", second[static_cast<std::size_t>(random.below(4))]};
   const double share = random.log_uniform(0.07, 0.70);
   fly(c, options.seconds, options.commands);

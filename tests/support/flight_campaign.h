@@ -21,6 +21,7 @@ struct Case {
   double gusts = 0.0;             ///< standard deviation, m/s
   ColouredNoise drift{0.0, 6.0};  ///< of the attitude shown, rad
   bool filter = false;
+  double shaken = 0.0;  ///< amplitude of each rotor's tone, in units of the accelerometer's noise
   std::vector<SimulatedFlight> flights;
   std::vector<std::string> scenarios;
   /// Standard deviation of what the air does over that of what the rotors do, both without gravity:
@@ -36,6 +37,7 @@ struct CaseOptions {
   bool commands = true;  ///< without, measured rotor speeds are the input
   double drift = 0.0;    ///< standard deviation of a slow error of the attitude shown, rad
   bool filter = false;   ///< attitude, velocity and position as a complementary filter shows them
+  double shaken = 0.0;   ///< amplitude of a rotor's tone in the IMU, in units of the accelerometer's noise
 };
 
 /// Layouts 4sp, plus and x; a quarter without rotor speeds; each constant but the mass (0.2 %) known to 5 to

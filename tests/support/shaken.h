@@ -38,21 +38,27 @@ inline FlightLog flown(const Vehicle& vehicle, std::uint64_t seed, bool speeds, 
   return log;
 }
 
-/// The log, which has rotor speeds, with a tone of each rotor in specific force (amplitude at 450 rad/s,
-/// m/s^2, growing with the square of the speed) and in the rates (a twentieth of that, rad/s), and one at
-/// twice its turns along z.
-inline FlightLog shaken(FlightLog log, const std::vector<double>& amplitude) {
+/// Adds a tone of each rotor to specific force (amplitude in m/s^2 at the speed `usual`, growing with the
+/// square of the speed) and to the rates (`of_rates` times that, rad/s), and one at twice its turns along z.
+/// `Omega`: [rotor][row].
+inline void shake(FlightLog& log, const std::vector<std::vector<double>>& Omega, double usual,
+                  const std::vector<double>& amplitude, double of_rates) {
   for (std::size_t n = 0; n < amplitude.size(); ++n) {
     double angle = 1.0 + static_cast<double>(n);
     for (std::size_t i = 0; i < log.rows(); ++i) {
-      if (i > 0) angle += 0.5 * (log.Omega[n][i] + log.Omega[n][i - 1]) * (log.t[i] - log.t[i - 1]);
-      const double size = amplitude[n] * std::pow(log.Omega[n][i] / 450, 2);
+      if (i > 0) angle += 0.5 * (Omega[n][i] + Omega[n][i - 1]) * (log.t[i] - log.t[i - 1]);
+      const double size = amplitude[n] * std::pow(Omega[n][i] / usual, 2), turn = of_rates * size;
       log.f_B[0][i] += size * std::cos(angle), log.f_B[1][i] += size * std::sin(angle);
       log.f_B[2][i] += 0.4 * size * std::cos(2 * angle);
-      log.w_B[0][i] += 0.05 * size * std::sin(angle), log.w_B[1][i] += 0.05 * size * std::cos(angle);
-      log.w_B[2][i] += 0.02 * size * std::cos(angle + 0.5);
+      log.w_B[0][i] += turn * std::sin(angle), log.w_B[1][i] += turn * std::cos(angle);
+      log.w_B[2][i] += 0.4 * turn * std::cos(angle + 0.5);
     }
   }
+}
+
+/// That of a log which has rotor speeds, with amplitudes at 450 rad/s.
+inline FlightLog shaken(FlightLog log, const std::vector<double>& amplitude) {
+  shake(log, log.Omega, 450.0, amplitude, 0.05);
   return log;
 }
 
