@@ -114,9 +114,19 @@ TEST(AgainstNaming, BesideAStrongCauseOfTheAirMoreIsLeftToARegression) {
   c.rival.gain[0] = 300.0;
   EXPECT_EQ(c.judged().status, "identified");
   c.rival.gain[0] = 600.0;
+  EXPECT_EQ(c.judged().status, "identified");
+  c.rival.gain[0] = 1200.0;
   EXPECT_EQ(c.judged().status, "unknown");
   c.rival.gain[0] = 300.0;
   c.search.form.scores.setZero();  // as much without scatter
+  EXPECT_EQ(c.judged().status, "unknown");
+}
+
+TEST(AgainstNaming, BesideSeveralCausesLessIsLeftToARegressionThanBesideOne) {
+  Case c({"rotor_drag", "rotor_tilt", "imu_bias"}, {"rotor_drag", "imu_bias"});
+  disagrees(c);
+  c.search.alone[0].gain = 1000;
+  c.rival.gain[0] = 600.0;
   EXPECT_EQ(c.judged().status, "unknown");
 }
 

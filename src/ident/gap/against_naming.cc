@@ -29,11 +29,12 @@ constexpr double kRivalMost = 60.0;
 constexpr double kRivalShare = 0.12;
 constexpr double kRivalShareOfDrive = 0.35;  // packs and propellers of one make are not alike
 // The same of what such a cause explains before its scatter is counted against it: a strong one shows every
-// difference of form as scatter. In 560 blind runs right names left at most 3.5 % of that, wrong ones 5 % up.
-constexpr double kRivalShareBefore = 0.025;
+// difference of form as scatter. In 560 blind runs right names left at most 3.5 % of that, wrong ones 5 % up;
+// in 500 more, where one cause is all that was found, right ones at most 5 % and wrong ones 11 % up.
+constexpr double kRivalShareBefore = 0.025, kRivalShareBeforeAlone = 0.06;
 // Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have; and
 // the share of itself by which it then changes. Motors are what they are only nearly.
-constexpr double kChanges = 2.8;
+constexpr double kChanges = 3.5;
 constexpr double kChangesBy = 0.1;
 constexpr double kMotorChangesBy = 0.5;
 // A bench is wrong in one thing or two. Where more of its values have to be, another one stands behind them.
@@ -139,7 +140,8 @@ double allowed_rival(const SearchResult& search) {
   double before = 0;
   for (const Candidate& c : search.best.adopted)
     if (is_loose(c) || is_of_motors(c)) before += search.gain_before_scatter(c);
-  return before > 0 ? std::max({least, kRivalShare * search.explained(), kRivalShareBefore * before}) : least;
+  const double share = search.best.adopted.size() == 1 ? kRivalShareBeforeAlone : kRivalShareBefore;
+  return before > 0 ? std::max({least, kRivalShare * search.explained(), share * before}) : least;
 }
 
 // Whether a regression gains more than that. Beside battery and thrust curve more is allowed where it shows

@@ -94,7 +94,18 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   again.near = at_now.model.fit.smoother;
   again.chunk_seconds = chunk_for(record, at_now.form.noise, again.fine_gusts);
   if (strong) again.chunk_seconds = std::min(again.chunk_seconds, at_now.model.fit.chunk_seconds);
-  return fitted(constants, adopted, record, at, again);
+  FittedModel found = fitted(constants, adopted, record, at, again);
+  const bool cut_short = !found.fit.converged && found.fit.u.size() > 0;
+  if (cut_short || stands(found)) return found;
+  // What is missing had bent the model, and the step from there led astray: once more from what was stated,
+  // and half the step.
+  for (FreeConstant& c : constants) {
+    if (!c.adopted && c.prior_std) c.start = c.prior_value;
+    if (const EffectParameter* effect = find_effect_parameter(c.name); c.adopted && effect && !c.positive)
+      c.start = 0.5 * (c.start + effect->null_value);
+  }
+  FittedModel other = fitted(std::move(constants), std::move(adopted), record, at, again);
+  return stands(other) ? other : found;
 }
 
 FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
