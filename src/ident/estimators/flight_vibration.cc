@@ -38,6 +38,15 @@ struct Sensor {
   std::vector<int> orders;  // of the tones it feels
 };
 
+// Every so many of many: enough to tell variances by.
+void thin_out(std::vector<ToneWindow>& windows) {
+  constexpr std::size_t kMost = 800;
+  const std::size_t step = (windows.size() + kMost - 1) / kMost;
+  for (std::size_t i = 1; step > 1 && i * step < windows.size(); ++i)
+    windows[i] = std::move(windows[i * step]);
+  if (step > 1) windows.resize((windows.size() + step - 1) / step);
+}
+
 // Takes the tones out of a sensor of the logs: windows that overlap by half, each fading out to its ends.
 // Gives the share of its samples in which tones pass for motion, and which count as not sampled.
 double take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Sensor& sensor,
@@ -124,7 +133,9 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   const double seconds =
       std::max(rotors.measured() ? kSeconds : kSecondsSimulated, kSamples * record.interval);
   in_parallel(sensors.size(), [&](std::size_t k) {
-    if (sensors[k].logged) sensors[k].windows = tone_windows(record, sensors[k].group, seconds);
+    if (!sensors[k].logged) return;
+    sensors[k].windows = tone_windows(record, sensors[k].group, seconds);
+    thin_out(sensors[k].windows.windows);
   });
   const double scale =
       rotors.measured() ? 1.0 : likeliest_scale(rotors, {&sensors[0].windows, &sensors[1].windows}, seconds);
