@@ -13,7 +13,9 @@ using testing::flown;
 using testing::shaken;
 using testing::verdict_of;
 
-Vibration one_of_four() { return {.of_rotor = {0.1, 0.1, 0.9, 0.1}, .rates = 0.01, .force = 0.2}; }
+Vibration one_of_four() {
+  return {.of_rotor = {0.1, 0.1, 0.9, 0.1}, .rates = 0.01, .force = 0.2, .told_apart = true};
+}
 
 TEST(WithVibration, NothingStandsOutNothingChanges) {
   const Judged named = with_vibration({.status = "identified", .sentence = "x", .effects = {"cg_offset"}},

@@ -17,6 +17,7 @@ using Eigen::Index;
 constexpr int kOrders = 3;            // the balance of a propeller, and two or three blades that pass
 constexpr double kBeyondDoubt = 6.0;  // standard deviations
 constexpr double kLikely = 3.5;
+constexpr std::size_t kFewestWindows = 10;
 constexpr double kFarthest = 0.1;  // by which simulated speeds may be off
 
 // Of each order, at `aside` Hz times seconds of the window from the tones, by each of them.
@@ -36,9 +37,8 @@ std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rot
       Eigen::ArrayXcd tone = aside;
       for (std::size_t k = 0; k < kOrders; ++k) {
         tone *= turned.col(n);
-        const Eigen::MatrixX3d& y = w.told;
-        const double power = (y.transpose() * tone.real().matrix()).squaredNorm() +
-                             (y.transpose() * tone.imag().matrix()).squaredNorm();
+        const double power = (w.told.transpose() * tone.real().matrix()).squaredNorm() +
+                             (w.told.transpose() * tone.imag().matrix()).squaredNorm();
         out[k][side] += sizes[n] * sizes[n] * power;
       }
     }
@@ -55,6 +55,7 @@ TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& 
   in_parallel(found.size(),
               [&](std::size_t i) { found[i] = power_of(rotors, sensor.windows[i], scale, kSides); });
   TonesFound out;
+  if (found.size() < kFewestWindows) return out;
   for (std::size_t k = 0; k < kOrders; ++k) {
     std::array<double, kSides.size()> sums{};
     for (const auto& window : found)
@@ -62,8 +63,12 @@ TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& 
     // Beside one tone there may be another: what is usual there counts.
     std::vector<double> beside(sums.begin() + 1, sums.end());
     const double more = sums[0] - median(beside), n = static_cast<double>(found.size());
-    double square = 0;
-    for (const auto& window : found) square += std::pow(window[k][0] - sums[0] / n, 2);
+    std::vector<double> squares;  // by how much chance scatters it, of each side
+    for (std::size_t side = 1; side < sums.size(); ++side) {
+      double& square = squares.emplace_back(0.0);
+      for (const auto& window : found) square += std::pow(window[k][side] - sums[side] / n, 2) * n / (n - 1);
+    }
+    const double square = median(squares);
     const int order = static_cast<int>(k) + 1;
     if (more > kBeyondDoubt * std::sqrt(square)) out.beyond_doubt.push_back(order);
     if (more > kLikely * std::sqrt(square)) out.likely.push_back(order);
@@ -71,8 +76,7 @@ TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& 
   return out;
 }
 
-double likeliest_scale(const TurningRotors& rotors, const std::vector<const ToneWindows*>& sensors,
-                       double seconds) {
+double likeliest_scale(const TurningRotors& rotors, const std::vector<const ToneWindows*>& sensors) {
   const auto power = [&](double scale) {
     double sum = 0;
     for (const ToneWindows* sensor : sensors)
@@ -81,6 +85,8 @@ double likeliest_scale(const TurningRotors& rotors, const std::vector<const Tone
     return sum;
   };
   // Half the width of a line of twice the turns, then ever finer.
+  double seconds = 0;
+  for (const ToneWindows* sensor : sensors) seconds = std::max(seconds, sensor->seconds);
   double step = std::numbers::pi / (2 * seconds * rotors.usual()), best = 1.0, half = kFarthest;
   constexpr double kFinest = 3e-4, kFiner = 4;
   while (half > kFinest) {

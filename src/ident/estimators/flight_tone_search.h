@@ -15,7 +15,6 @@ TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& 
 
 /// By how much rotors turn faster than `rotors` has them, where the most power of all sensors lies at
 /// multiples of their turns: for speeds that are only simulated.
-double likeliest_scale(const TurningRotors& rotors, const std::vector<const ToneWindows*>& sensors,
-                       double seconds);
+double likeliest_scale(const TurningRotors& rotors, const std::vector<const ToneWindows*>& sensors);
 
 }  // namespace ident

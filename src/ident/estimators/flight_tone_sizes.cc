@@ -41,7 +41,7 @@ double ToneSizes::log_likelihood_of(int rotor) const {
   for (std::size_t k = 0; k < windows.size(); ++k)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Told& all = windows_[k][axis];
-      windows[k][axis] = {all.G(columns, columns), all.b(columns), all.square, all.left};
+      windows[k][axis] = {all.G(columns, columns), all.b(columns), all.square, all.samples};
     }
   return found_from(windows).log_likelihood;
 }
@@ -69,8 +69,7 @@ double ToneSizes::passes_for_motion(const ToneWindow& window, double hz) const {
 
 ToneSizes::Told ToneSizes::told_by(const ToneWindow& window, const MatrixXd& tones, Index axis) {
   return {tones.transpose() * window.weighted(tones, axis), tones.transpose() * window.told.col(axis),
-          window.y.col(axis).dot(window.told.col(axis)),
-          static_cast<double>(window.y.rows()) - window.taken.col(axis).sum()};
+          window.y.col(axis).dot(window.told.col(axis)), static_cast<double>(window.y.rows())};
 }
 
 // Cosine and sine of each tone: [sample][2 x (order, and in it rotor)].
@@ -93,16 +92,16 @@ ToneSizes::Found ToneSizes::found_from(const ToldWindows& windows) const {
   Found found;
   if (windows.empty()) return found;
   // No tone is larger than all that is there: of rotors that turn alike only the sum is told.
-  Vector3d square = Vector3d::Zero(), left = square;
+  Vector3d square = Vector3d::Zero(), samples = square;
   for (const auto& window : windows)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       square[static_cast<Index>(axis)] += window[axis].square;
-      left[static_cast<Index>(axis)] += window[axis].left;
+      samples[static_cast<Index>(axis)] += window[axis].samples;
     }
   found.variance = MatrixXd::Constant(windows[0][0].b.size() / 2, 3, kFirst);
   for (int round = 0; round < kRounds; ++round) {
     const double before = found.log_likelihood;
-    found = updated(windows, found, 2 * square.cwiseQuotient(left));
+    found = updated(windows, found, (2 * square.cwiseQuotient(samples)).cwiseMax(kLeast));
     if (round > 1 && std::abs(found.log_likelihood - before) < kEnough) break;
   }
   return found;
@@ -127,14 +126,14 @@ ToneSizes::Found ToneSizes::updated(const ToldWindows& windows, const Found& fro
     for (const auto& window : windows) {
       const Told& told = window[a];
       const Posterior x = posterior(told, from, axis);
-      free[axis] += told.left;
+      free[axis] += told.samples;
       for (Index i = 0; i < x.mean.size(); ++i) {
         const double share = 1 - x.variance[i] / from.variance(i / 2, axis);
         square(i / 2, axis) += x.mean[i] * x.mean[i], known(i / 2, axis) += share, free[axis] -= share;
       }
       rest[axis] += told.square - 2 * x.mean.dot(told.b) + x.mean.dot(told.G * x.mean);
       likelihood[axis] -= 0.5 * (x.log_det + (told.square - x.mean.dot(told.b)) / from.noise[axis] -
-                                 told.square + told.left * std::log(from.noise[axis]));
+                                 told.square + told.samples * std::log(from.noise[axis]));
     }
   });
   Found out{MatrixXd(square.rows(), 3), (rest.array() / free.array().max(1.0)).max(kLeast), likelihood.sum()};

@@ -18,8 +18,10 @@ class ToneSizes {
   /// Of the rotors as `turning` has them, `scale` times as fast.
   ToneSizes(const TurningRotors& turning, const ToneWindows& sensor, std::vector<int> orders, double scale);
 
-  /// [order, and in it rotor][axis] variance of cosine and sine at the usual speed, in units of the noise.
+  /// [order, and in it rotor][axis] variance of cosine and sine at the usual speed, in units of the windows'
+  /// noise; what of that is noise, where tones are taken out.
   const Eigen::MatrixXd& variance() const { return found_.variance; }
+  const Eigen::Vector3d& noise() const { return found_.noise; }
   /// Over that of no tones, nats.
   double log_likelihood() const { return found_.log_likelihood; }
   /// The same if only that rotor had tones.
@@ -31,11 +33,11 @@ class ToneSizes {
   double passes_for_motion(const ToneWindow& window, double hz) const;
 
  private:
-  // What a window says of the tones on an axis; samples less those that motion takes.
+  // What a window says of the tones on an axis.
   struct Told {
     Eigen::MatrixXd G;
     Eigen::VectorXd b;
-    double square = 0.0, left = 0.0;
+    double square = 0.0, samples = 0.0;
   };
   using ToldWindows = std::vector<std::array<Told, 3>>;
   struct Found {

@@ -16,22 +16,19 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// What may be motion: up to so many Hz, or such a share of what samples show.
-constexpr double kMotion = 60.0, kShareOfMotion = 0.45;
-constexpr Index kFewest = 30;     // samples of a window,
-constexpr Index kFewestFast = 8;  // and of them more than the slow part has columns
-constexpr double kIdle = 0.2;     // of the usual speed; slower rotors are not looked at
+constexpr Index kSamples = 40;  // of a window that tells something,
+constexpr Index kFewest = 32;   // and of one in which some were lost
+constexpr double kIdle = 0.2;   // of the usual speed; slower rotors are not looked at
 
-// Hz up to which samples may show motion.
-double fastest_motion(const FlightRecord& record) {
-  return std::min(kMotion, kShareOfMotion / (2 * record.interval));
+bool were_measured(const FlightArc& arc, std::size_t rotor) {
+  return rotor < arc.inputs->Omega.size() && arc.inputs->Omega[rotor].size() == arc.rows();
 }
 
 // Speeds of the rotors at the rows of an arc, rad/s.
 std::vector<std::vector<double>> speeds_of(const FlightArc& arc, int rotors) {
   std::vector<std::vector<double>> out(static_cast<std::size_t>(rotors));
   for (std::size_t n = 0; n < out.size(); ++n) {
-    if (n < arc.inputs->Omega.size() && arc.inputs->Omega[n].size() == arc.rows()) {
+    if (were_measured(arc, n)) {
       out[n] = arc.inputs->Omega[n];
     } else {
       out[n].resize(arc.rows());
@@ -48,92 +45,134 @@ std::vector<double> angle_of(const std::vector<double>& t, const std::vector<dou
   return out;
 }
 
-// Cosines over samples (DCT-II), slow ones first, by how many samples there are: where some were lost they
-// are as smooth.
+// Which rows of a sensor were sampled, of all axes that ever were.
+class Sampled {
+ public:
+  Sampled(const FlightRecord& record, int group) : group_(static_cast<std::size_t>(group)) {
+    for (const FlightArc& arc : record.arcs)
+      for (std::size_t i = 0; i < arc.rows(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) axes_[c] |= std::isfinite(arc.y[i * kChannels + group_ + c]);
+  }
+  bool operator()(const FlightArc& arc, std::size_t i) const {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (axes_[c] && !std::isfinite(arc.y[i * kChannels + group_ + c])) return false;
+    return axes_[0] || axes_[1] || axes_[2];
+  }
+  double value(const FlightArc& arc, std::size_t i, std::size_t axis) const {
+    return axes_[axis] ? arc.y[i * kChannels + group_ + axis] : 0.0;
+  }
+
+ private:
+  std::size_t group_;
+  std::array<bool, 3> axes_{};
+};
+
+// Usual time between samples, s; 0 without any.
+double usual_interval(const FlightRecord& record, const Sampled& is_sampled) {
+  std::vector<double> intervals;
+  for (const FlightArc& arc : record.arcs) {
+    double last = kNaN;
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      if (!is_sampled(arc, i)) continue;
+      if (std::isfinite(last)) intervals.push_back(arc.t[i] - last);
+      last = arc.t[i];
+    }
+  }
+  return intervals.empty() ? 0.0 : median(intervals);
+}
+
+// Cosines over samples (DCT-II) by how many samples there are: where some were lost they are as smooth.
 using Cosines = std::map<Index, std::shared_ptr<const MatrixXd>>;
 
-const std::shared_ptr<const MatrixXd>& slow_cosines(Cosines& cache, Index samples, Index slow) {
+const std::shared_ptr<const MatrixXd>& cosines_over(Cosines& cache, Index samples) {
   std::shared_ptr<const MatrixXd>& found = cache[samples];
   if (found) return found;
-  MatrixXd out(samples, slow);
+  MatrixXd out(samples, samples);
   for (Index i = 0; i < samples; ++i)
-    for (Index k = 0; k < slow; ++k)
+    for (Index k = 0; k < samples; ++k)
       out(i, k) = std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
                            static_cast<double>(samples));
   out.colwise().normalize();
   return found = std::make_shared<const MatrixXd>(std::move(out));
 }
 
-// The window of those rows; without samples where they are too few.
-ToneWindow window_of(const FlightArc& arc, std::vector<std::size_t> rows, int group, Index slow,
-                     Cosines& cosines) {
-  ToneWindow w;
-  const auto samples = static_cast<Index>(rows.size());
-  if (samples < std::max(kFewest, slow + kFewestFast)) return w;
-  w.rows = std::move(rows);
-  w.y.resize(samples, 3);
-  for (Index s = 0; s < samples; ++s)
-    for (Index c = 0; c < 3; ++c)
-      w.y(s, c) =
-          arc.y[w.rows[static_cast<std::size_t>(s)] * kChannels + static_cast<std::size_t>(group + c)];
-  w.slow = slow_cosines(cosines, samples, slow);
-  return w;
+// A spectrum that fades: the median of neighbours, and never more than at what is slower. What rises again is
+// a tone.
+void fade(Eigen::Ref<Eigen::VectorXd> power) {
+  constexpr Index kNeighbours = 3, kSlowest = 3;
+  const Eigen::VectorXd raw = power;
+  for (Index k = kSlowest; k < raw.size(); ++k) {
+    const Index half = std::min({kNeighbours, k - kSlowest, raw.size() - 1 - k});
+    std::vector<double> near(raw.data() + k - half, raw.data() + k + half + 1);
+    power[k] = std::min(median(near), power[k - 1]);
+  }
 }
 
-// Noise of the axes by what is faster than motion, and which share of each slow cosine is motion.
+// The spectrum of each log gives the noise of the axes, by what is fastest, and the share of each cosine that
+// is more than that. Windows last alike, whether samples were lost in them or not.
 void weigh(const FlightRecord& record, ToneWindows& sensor, const Eigen::Vector3d* sigma) {
-  Eigen::Vector3d square = Eigen::Vector3d::Zero();
-  double left = 0;
-  std::vector<MatrixXd> slow(static_cast<std::size_t>(record.logs));  // [log][column][axis] squares
-  std::vector<double> count(slow.size(), 0.0);
+  Index most = 0;
+  for (const ToneWindow& w : sensor.windows) most = std::max(most, w.y.rows());
+  if (most == 0) return;
+  std::vector<MatrixXd> power(static_cast<std::size_t>(record.logs), MatrixXd::Zero(most, 3));
+  std::vector<Eigen::VectorXd> count(power.size(), Eigen::VectorXd::Zero(most));
   for (const ToneWindow& w : sensor.windows) {
     const auto log = static_cast<std::size_t>(record.arcs[w.arc].log);
-    const MatrixXd c = w.slow->transpose() * w.y;
-    square += (w.y.colwise().squaredNorm() - c.colwise().squaredNorm()).transpose();
-    left += static_cast<double>(w.slow->rows() - w.slow->cols());
-    slow[log] = count[log] == 0 ? MatrixXd(c.cwiseAbs2()) : MatrixXd(slow[log] + c.cwiseAbs2());
-    count[log] += 1;
+    power[log].topRows(w.y.rows()) += (w.cosines->transpose() * w.y).cwiseAbs2();
+    count[log].head(w.y.rows()).array() += 1;
   }
-  if (sigma)
-    sensor.sigma = *sigma;
-  else if (left > 0)
-    sensor.sigma = (square / left).cwiseMax(1e-24).cwiseSqrt();
-  for (std::size_t log = 0; log < slow.size(); ++log) {
-    const Eigen::RowVector3d noise = sensor.sigma.cwiseAbs2().transpose() * count[log];
-    // Motion fades with frequency; what rises again is a tone.
-    for (Index k = 2; k < slow[log].rows(); ++k)
-      slow[log].row(k) = slow[log].row(k).cwiseMin(slow[log].row(k - 1)).eval();
-    for (Index k = 0; k < slow[log].rows(); ++k)
-      slow[log].row(k) = (1 - noise.array() / slow[log].row(k).array().max(1e-300)).max(0.0);
+  Eigen::Vector3d fastest = Eigen::Vector3d::Zero();
+  double windows = 0;
+  for (std::size_t log = 0; log < power.size(); ++log) {
+    if (count[log][0] == 0) continue;
+    power[log].array().colwise() /= count[log].array().max(1.0);
+    for (Index axis = 0; axis < 3; ++axis) fade(power[log].col(axis));
+    Index last = most - 1;  // that windows usually have
+    while (count[log][last] < 0.5 * count[log][0]) --last;
+    fastest += count[log][0] * power[log].row(last).transpose(), windows += count[log][0];
   }
+  sensor.sigma = sigma ? *sigma : Eigen::Vector3d((fastest / windows).cwiseSqrt());
+  // An axis that hardly moves is not trusted beyond its sensor.
+  sensor.sigma = sensor.sigma.cwiseMax(std::max(0.2 * sensor.sigma.maxCoeff(), 1e-12));
   for (ToneWindow& w : sensor.windows) {
-    w.taken = slow[static_cast<std::size_t>(record.arcs[w.arc].log)];
+    const MatrixXd& of_log = power[static_cast<std::size_t>(record.arcs[w.arc].log)];
+    w.taken.resize(w.y.rows(), 3), w.told.resize(w.y.rows(), 3);
     w.y *= sensor.sigma.cwiseInverse().asDiagonal();
-    w.told.resize(w.y.rows(), 3);
-    for (Index axis = 0; axis < 3; ++axis) w.told.col(axis) = w.weighted(w.y.col(axis), axis);
+    for (Index axis = 0; axis < 3; ++axis) {
+      const double noise = sensor.sigma[axis] * sensor.sigma[axis];
+      for (Index k = 0; k < w.y.rows(); ++k)
+        w.taken(k, axis) = std::max(1 - noise / std::max(of_log(k, axis), noise), 0.0);
+      w.told.col(axis) = w.weighted(w.y.col(axis), axis);
+    }
   }
 }
 
 }  // namespace
 
+double folded(double hz, double sampled) { return std::abs(hz - std::round(hz / sampled) * sampled); }
+
 ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin,
                          const Eigen::Vector3d* sigma) {
   ToneWindows out;
+  const Sampled is_sampled(record, group);
+  out.seconds = std::max(seconds, static_cast<double>(kSamples) * usual_interval(record, is_sampled));
   Cosines cosines;
-  const auto slow = static_cast<Index>(std::ceil(2 * fastest_motion(record) * seconds)) + 1;
   for (std::size_t a = 0; a < record.arcs.size(); ++a) {
     const FlightArc& arc = record.arcs[a];
-    const auto is_sampled = [&](std::size_t i) {
-      const double* y = &arc.y[i * kChannels + static_cast<std::size_t>(group)];
-      return std::isfinite(y[0]) && std::isfinite(y[1]) && std::isfinite(y[2]);
-    };
-    double from = arc.t.front() + begin;
-    for (std::size_t i = 0; i < arc.rows(); from += seconds) {
-      std::vector<std::size_t> rows;
-      for (; i < arc.rows() && arc.t[i] < from + seconds; ++i)
-        if (is_sampled(i)) rows.push_back(i);
-      if (ToneWindow w = window_of(arc, std::move(rows), group, slow, cosines); !w.rows.empty())
-        w.arc = a, out.windows.push_back(std::move(w));
+    double from = arc.t.front() + begin * out.seconds;
+    for (std::size_t i = 0; i < arc.rows(); from += out.seconds) {
+      ToneWindow w;
+      w.arc = a;
+      for (; i < arc.rows() && arc.t[i] < from + out.seconds; ++i)
+        if (is_sampled(arc, i)) w.rows.push_back(i);
+      const auto samples = static_cast<Index>(w.rows.size());
+      if (samples < kFewest) continue;
+      w.cosines = cosines_over(cosines, samples);
+      w.y.resize(samples, 3);
+      for (Index s = 0; s < samples; ++s)
+        for (Index c = 0; c < 3; ++c)
+          w.y(s, c) = is_sampled.value(arc, w.rows[static_cast<std::size_t>(s)], static_cast<std::size_t>(c));
+      out.windows.push_back(std::move(w));
     }
   }
   weigh(record, out, sigma);
@@ -168,8 +207,9 @@ bool has_uneven_spectrum(const FlightRecord& record, int group) {
     }
   }
   const double blocks = count / 3, rate = samples / 3 / record.duration;
+  if (blocks < 8) return false;
   const auto first = static_cast<std::size_t>(std::ceil(std::min(kSlow, 0.2 * rate) / rate * kLength)) + 1;
-  if (blocks < 8 || first + 4 > kLength / 2) return false;
+  if (first + 4 > kLength / 2) return false;
   return std::ranges::any_of(power, [&](const std::vector<double>& p) {
     const std::vector<double> fast(p.begin() + static_cast<std::ptrdiff_t>(first), p.end() - 1);
     return std::ranges::max(fast) > (1 + kBeyondDoubt / std::sqrt(blocks)) * median(fast);
@@ -177,9 +217,11 @@ bool has_uneven_spectrum(const FlightRecord& record, int group) {
 }
 
 TurningRotors::TurningRotors(const FlightRecord& record)
-    : record_(&record), count_(record.layout.rotors), measured_(record.signals.rotor_speeds) {
+    : record_(&record), count_(record.layout.rotors), measured_(true) {
   double sum = 0, n = 0;
   for (const FlightArc& arc : record.arcs) {
+    for (int rotor = 0; rotor < count_; ++rotor)
+      measured_ &= were_measured(arc, static_cast<std::size_t>(rotor));
     speed_.push_back(speeds_of(arc, count_));
     angle_.emplace_back();
     for (const std::vector<double>& speed : speed_.back()) {
@@ -214,13 +256,16 @@ Eigen::VectorXd TurningRotors::sizes(const ToneWindow& window) const {
 
 Eigen::VectorXd TurningRotors::folded(const ToneWindow& window, int order, double scale) const {
   const std::vector<double>& t = record_->arcs[window.arc].t;
+  std::vector<double> intervals;  // usual ones: some samples may be lost
+  for (std::size_t i = 1; i < window.rows.size(); ++i)
+    intervals.push_back(t[window.rows[i]] - t[window.rows[i - 1]]);
+  const double rate = 1 / median(intervals);
   const std::size_t first = window.rows.front(), last = window.rows.back();
-  const double span = t[last] - t[first], rate = static_cast<double>(window.rows.size() - 1) / span;
   Eigen::VectorXd out(count_);
   for (Index n = 0; n < count_; ++n) {
     const std::vector<double>& angle = angle_[window.arc][static_cast<std::size_t>(n)];
-    const double hz = order * scale * (angle[last] - angle[first]) / (2 * std::numbers::pi * span);
-    out[n] = std::abs(hz - std::round(hz / rate) * rate);
+    const double turns = (angle[last] - angle[first]) / (2 * std::numbers::pi * (t[last] - t[first]));
+    out[n] = ident::folded(order * scale * turns, rate);
   }
   return out;
 }

@@ -13,28 +13,34 @@ namespace ident {
 struct ToneWindow {
   std::size_t arc = 0;
   std::vector<std::size_t> rows;
-  std::shared_ptr<const Eigen::MatrixXd> slow;  ///< orthonormal: what may be motion
-  Eigen::MatrixXd taken;  ///< [column of slow][axis] share of its variance that is motion in this log
-  Eigen::MatrixXd y;      ///< [sample][axis]
-  Eigen::MatrixXd told;   ///< the same, weighted()
+  std::shared_ptr<const Eigen::MatrixXd>
+      cosines;  ///< orthonormal, all that samples can show, slow ones first
+  Eigen::MatrixXd
+      taken;             ///< [cosine][axis] share of its variance in this log that is more than noise: motion
+  Eigen::MatrixXd y;     ///< [sample][axis]; 0 of an axis that was never sampled
+  Eigen::MatrixXd told;  ///< the same, weighted()
 
   /// Columns over the samples, multiplied by the inverse of the covariance of motion and noise.
   Eigen::MatrixXd weighted(const Eigen::MatrixXd& x, Eigen::Index axis) const {
-    return x - *slow * (taken.col(axis).asDiagonal() * (slow->transpose() * x));
+    return x - *cosines * (taken.col(axis).asDiagonal() * (cosines->transpose() * x));
   }
 };
 
-/// All windows of a sensor, each of so many seconds, and the noise of its axes.
+/// Windows of a sensor, each of so many seconds, and the noise of its axes.
 struct ToneWindows {
   std::vector<ToneWindow> windows;
+  double seconds = 0.0;
   Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
 };
 
-/// Windows of the three axes from channel `group` on, one after the other from `begin` s after the start of
-/// each arc; `sigma` as another such call found it. Those with too few samples for a band above that of
-/// motion are left out.
+/// Windows of the three axes from channel `group` on, one after the other from `begin` of their length after
+/// the start of each arc, of `seconds` or of so many samples as tell something, whichever is longer; `sigma`
+/// as another such call found it.
 ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, double begin = 0.0,
                          const Eigen::Vector3d* sigma = nullptr);
+
+/// Where what happens so often shows when it is sampled so often, Hz.
+double folded(double hz, double sampled);
 
 /// Whether the spectrum of a sensor has anything above that of motion that stands out of its own median. For
 /// a first look: a filter's slope does as well.
@@ -43,7 +49,7 @@ bool has_uneven_spectrum(const FlightRecord& record, int group);
 /// Turns of the rotors at the rows of a record; refers to it.
 class TurningRotors {
  public:
-  /// By speeds as measured, or else as simulated from the commands.
+  /// By speeds as measured, or as simulated from the commands where not all were.
   explicit TurningRotors(const FlightRecord& record);
 
   int count() const { return count_; }

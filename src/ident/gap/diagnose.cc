@@ -164,10 +164,10 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
   if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);
-  verdict = with_vibration(std::move(verdict), vibration);
-  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
   if (doubtful && !fine_gusts && gusts_may_be_all(record, search, gap)) return std::nullopt;
+  verdict = with_vibration(std::move(verdict), vibration);
+  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
                              {"confused_with", verdict.confused_with},
@@ -220,6 +220,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
                                  {"force", vibration.force},
                                  {"speeds", vibration.speeds},
                                  {"of_rotor", vibration.of_rotor},
+                                 {"unbalanced", vibration.unbalanced()},
                                  {"stands_out", vibration.stands_out()}};
   Json struck = Json::array();
   for (const Burst& one : jumps)

@@ -99,9 +99,13 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   if (cut_short || stands(found)) return found;
   // What is missing had bent the model, and the step from there led astray: once more from what was stated,
   // and half the step.
+  const auto is_new = [&](const FreeConstant& c) {
+    return std::ranges::find(at_now.model.constants, c.name, &FreeConstant::name) ==
+           at_now.model.constants.end();
+  };
   for (FreeConstant& c : constants) {
     if (!c.adopted && c.prior_std) c.start = c.prior_value;
-    if (const EffectParameter* effect = find_effect_parameter(c.name); c.adopted && effect && !c.positive)
+    if (const EffectParameter* effect = find_effect_parameter(c.name); effect && is_new(c) && !c.positive)
       c.start = 0.5 * (c.start + effect->null_value);
   }
   FittedModel other = fitted(std::move(constants), std::move(adopted), record, at, again);

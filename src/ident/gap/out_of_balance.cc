@@ -7,9 +7,9 @@
 namespace ident {
 
 Judged with_vibration(Judged verdict, const Vibration& vibration) {
-  if (vibration.stands_out() == 0) return verdict;
+  if (!vibration.unbalanced()) return verdict;
   const std::string shakes = "Something shakes this vehicle that no cause of the catalogue explains: " +
-                             vibration.what_stands_out() + ". Balance it, and fly again.";
+                             vibration.what_is_unbalanced() + ". Balance the propellers, and fly again.";
   if (verdict.status == "unknown") {
     verdict.sentence = shakes + " " + verdict.sentence;
     return verdict;

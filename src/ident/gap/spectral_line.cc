@@ -7,6 +7,7 @@
 
 #include "ident/core/parallel.h"
 #include "ident/estimators/flight_slow_errors.h"
+#include "ident/estimators/flight_tones.h"
 
 namespace ident {
 namespace {
@@ -116,9 +117,6 @@ double mean_turns(const FlightRecord& record, const FlightFit& fit) {
       sum += x.motors[static_cast<std::size_t>(n)].Omega / (2 * M_PI), count += 1;
   return sum / count;
 }
-
-// Where what happens so often shows when it is sampled so often, Hz.
-double folded(double hz, double sampled) { return std::abs(hz - std::round(hz / sampled) * sampled); }
 
 }  // namespace
 
