@@ -35,6 +35,17 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
   }
 }
 
+// Motors so slow against what was stated that speeds as measured are the input, whatever is commanded.
+bool ignores_commands(const FittedModel& model) {
+  constexpr double kSlower = 20.0;
+  const auto is_lag_of = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
+  if (std::ranges::any_of(model.adopted, is_lag_of)) return false;
+  for (std::size_t i = 0; i < model.constants.size(); ++i)
+    if (const FreeConstant& c = model.constants[i]; c.index == param::omega_m && c.prior_std)
+      return model.theta->physical(model.fit.u, static_cast<int>(i)) < c.prior_value / kSlower;
+  return false;
+}
+
 }  // namespace
 
 Standing standing_at(const FlightRecord& record, const Vehicle& vehicle,
@@ -96,7 +107,7 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   if (strong) again.chunk_seconds = std::min(again.chunk_seconds, at_now.model.fit.chunk_seconds);
   FittedModel found = fitted(constants, adopted, record, at, again);
   const bool cut_short = !found.fit.converged && found.fit.u.size() > 0;
-  if (cut_short || stands(found)) return found;
+  if (cut_short || (stands(found) && !ignores_commands(found))) return found;
   // What is missing had bent the model, and the step from there led astray: once more from what was stated,
   // and half the step.
   const auto is_new = [&](const FreeConstant& c) {
@@ -109,7 +120,7 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
       c.start = 0.5 * (c.start + effect->null_value);
   }
   FittedModel other = fitted(std::move(constants), std::move(adopted), record, at, again);
-  return stands(other) ? other : found;
+  return stands(other) && !ignores_commands(other) ? other : found;
 }
 
 FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
