@@ -29,9 +29,9 @@ std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rot
   const Eigen::VectorXd sizes = rotors.sizes(w);
   const auto samples = static_cast<double>(w.y.rows());
   std::array<std::array<double, Sides>, kOrders> out{};
-  Eigen::ArrayXcd aside = Eigen::ArrayXcd::Ones(w.y.rows());
+  Eigen::ArrayXcd aside(w.y.rows());
   for (std::size_t side = 0; side < Sides; ++side) {
-    for (Index i = 0; i < aside.size() && asides[side] != 0; ++i)
+    for (Index i = 0; i < aside.size(); ++i)
       aside[i] = std::polar(1.0, 2 * std::numbers::pi * asides[side] * static_cast<double>(i) / samples);
     for (Index n = 0; n < turned.cols(); ++n) {
       Eigen::ArrayXcd tone = aside;
@@ -42,7 +42,6 @@ std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rot
         out[k][side] += sizes[n] * sizes[n] * power;
       }
     }
-    aside.setOnes();
   }
   return out;
 }

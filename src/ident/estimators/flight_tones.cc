@@ -8,6 +8,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "ident/estimators/flight_changes.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -35,13 +36,6 @@ std::vector<std::vector<double>> speeds_of(const FlightArc& arc, int rotors) {
       for (std::size_t i = 0; i < arc.rows(); ++i) out[n][i] = arc.start[i].motors[n].Omega;
     }
   }
-  return out;
-}
-
-std::vector<double> angle_of(const std::vector<double>& t, const std::vector<double>& speed) {
-  std::vector<double> out(t.size(), 0.0);
-  for (std::size_t i = 1; i < t.size(); ++i)
-    out[i] = out[i - 1] + 0.5 * (t[i] - t[i - 1]) * (speed[i] + speed[i - 1]);
   return out;
 }
 
@@ -179,41 +173,33 @@ ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, 
   return out;
 }
 
-bool has_uneven_spectrum(const FlightRecord& record, int group) {
+bool has_uneven_spectrum(const FlightRecord& record, int channel) {
   constexpr std::size_t kLength = 64;
   constexpr double kBeyondDoubt = 6.0;  // standard deviations of a mean of periodograms
   constexpr double kSlow = 20.0;        // Hz below which motion stands out
-  std::array<std::vector<double>, 3> power;
-  double count = 0, samples = 0;
-  std::array<double, kLength> hann{};
+  std::vector<double> power(kLength / 2 + 1, 0.0), hann(kLength), block, windowed(kLength);
   for (std::size_t i = 0; i < kLength; ++i)
     hann[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / kLength);
+  double blocks = 0, samples = 0;
   Eigen::FFT<double> fft;
-  for (std::size_t c = 0; c < 3; ++c) {
-    power[c].assign(kLength / 2 + 1, 0.0);
-    std::vector<double> block, windowed(kLength);
-    std::vector<std::complex<double>> spectrum;
-    for (const FlightArc& arc : record.arcs) {
-      block.clear();
-      for (std::size_t i = 0; i < arc.rows(); ++i) {
-        const double y = arc.y[i * kChannels + static_cast<std::size_t>(group) + c];
-        if (std::isfinite(y)) block.push_back(y), samples += 1;
-        if (block.size() < kLength) continue;
-        for (std::size_t k = 0; k < kLength; ++k) windowed[k] = (block[k] - block[0]) * hann[k];
-        fft.fwd(spectrum, windowed);
-        for (std::size_t k = 0; k < power[c].size(); ++k) power[c][k] += std::norm(spectrum[k]);
-        block.clear(), count += 1;
-      }
+  std::vector<std::complex<double>> spectrum;
+  for (const FlightArc& arc : record.arcs) {
+    block.clear();
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+      if (std::isfinite(y)) block.push_back(y), samples += 1;
+      if (block.size() < kLength) continue;
+      for (std::size_t k = 0; k < kLength; ++k) windowed[k] = (block[k] - block[0]) * hann[k];
+      fft.fwd(spectrum, windowed);
+      for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(spectrum[k]);
+      block.clear(), blocks += 1;
     }
   }
-  const double blocks = count / 3, rate = samples / 3 / record.duration;
   if (blocks < 8) return false;
+  const double rate = samples / record.duration;
   const auto first = static_cast<std::size_t>(std::ceil(std::min(kSlow, 0.2 * rate) / rate * kLength)) + 1;
-  if (first + 4 > kLength / 2) return false;
-  return std::ranges::any_of(power, [&](const std::vector<double>& p) {
-    const std::vector<double> fast(p.begin() + static_cast<std::ptrdiff_t>(first), p.end() - 1);
-    return std::ranges::max(fast) > (1 + kBeyondDoubt / std::sqrt(blocks)) * median(fast);
-  });
+  const std::vector<double> fast(power.begin() + static_cast<std::ptrdiff_t>(first), power.end() - 1);
+  return std::ranges::max(fast) > (1 + kBeyondDoubt / std::sqrt(blocks)) * median(fast);
 }
 
 TurningRotors::TurningRotors(const FlightRecord& record)
@@ -225,7 +211,7 @@ TurningRotors::TurningRotors(const FlightRecord& record)
     speed_.push_back(speeds_of(arc, count_));
     angle_.emplace_back();
     for (const std::vector<double>& speed : speed_.back()) {
-      angle_.back().push_back(angle_of(arc.t, speed));
+      angle_.back().push_back(integral(arc.t, speed));
       for (const double x : speed) sum += x, n += 1;
     }
   }

@@ -42,9 +42,9 @@ ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, 
 /// Where what happens so often shows when it is sampled so often, Hz.
 double folded(double hz, double sampled);
 
-/// Whether the spectrum of a sensor has anything above that of motion that stands out of its own median. For
+/// Whether the spectrum of a channel has anything above that of motion that stands out of its own median. For
 /// a first look: a filter's slope does as well.
-bool has_uneven_spectrum(const FlightRecord& record, int group);
+bool has_uneven_spectrum(const FlightRecord& record, int channel);
 
 /// Turns of the rotors at the rows of a record; refers to it.
 class TurningRotors {

@@ -196,11 +196,12 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   if (!s.commands && !s.rotor_speeds) return {};
   std::array<Sensor, 2> sensors = {
       {{&FlightLog::w_B, kGyro, s.rates, {}, {}}, {&FlightLog::f_B, kForce, s.force, {}, {}}}};
-  std::array<bool, 2> uneven{};
-  in_parallel(sensors.size(), [&](std::size_t k) {
-    uneven[k] = sensors[k].logged && has_uneven_spectrum(record, sensors[k].group);
+  std::array<bool, 6> uneven{};
+  in_parallel(uneven.size(), [&](std::size_t k) {
+    const Sensor& sensor = sensors[k / 3];
+    uneven[k] = sensor.logged && has_uneven_spectrum(record, sensor.group + static_cast<int>(k % 3));
   });
-  if (!uneven[0] && !uneven[1]) return {};
+  if (std::ranges::none_of(uneven, std::identity())) return {};
   const TurningRotors rotors(record);
   const double scale = find_tones(record, rotors, sensors);
   if (std::isnan(scale)) return {};

@@ -6,7 +6,7 @@
 
 namespace ident {
 
-/// A verdict of a flight with that vibration: none but `unknown` while one rotor stands out.
+/// A verdict of a flight with that vibration: `unknown` while a propeller is out of balance.
 Judged with_vibration(Judged verdict, const Vibration& vibration);
 
 }  // namespace ident
