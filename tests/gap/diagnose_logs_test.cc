@@ -88,6 +88,10 @@ TEST(Diagnosis, RotorsThatGoBeforeTheirCommandsAreNotNamed) {
   const Diagnosis found = diagnose_gap(model, std::vector<FlightLog>{log});
   EXPECT_EQ(found.result.extra["verdict"]["status"], "unknown") << found.result.extra["verdict"];
   EXPECT_TRUE(found.result.has_warning("negative_dead_time"));
+  for (const Parameter& p : found.result.parameters) {
+    const bool of_lag = p.name == "dead_time" || p.name == "omega_m" || p.name == "zeta_m";
+    EXPECT_FALSE(of_lag && p.identifiable) << p.name;
+  }
   EXPECT_GE(found.adopted.value("dead_time"), 0.0);
 }
 

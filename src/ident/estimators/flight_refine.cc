@@ -114,10 +114,15 @@ void doubt_negative_dead_time(Result& result) {
   if (early == result.parameters.end()) return;
   early->identifiable = false;
   early->note = "negative: no motor turns before its command";
+  // What is early makes up for what else is late: motors that are too slow go with it.
+  for (Parameter& p : result.parameters)
+    if ((p.name == "omega_m" || p.name == "zeta_m") && p.identifiable)
+      p.identifiable = false, p.note = "goes with a negative dead_time, which no motor has";
   result.warn(
       "negative_dead_time",
-      "rotors seem to follow commands before these come: the clocks of commands and sensors differ, or "
-      "the model lacks something (try ident gap)");
+      "rotors seem to follow commands before these come, and of the motors' lag nothing certain is said: the "
+      "clocks of commands and sensors differ, the log shows commands in coarser steps than they were flown "
+      "in, or the model lacks something (try ident gap)");
 }
 
 bool disagrees(const Parameter& p) {

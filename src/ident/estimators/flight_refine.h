@@ -42,7 +42,8 @@ std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
 /// A dead time that is negative beyond chance, which no motor has.
 bool is_before_its_command(const Parameter& p);
 
-/// Warns (`negative_dead_time`) of such a one, which counts as not identifiable.
+/// Warns (`negative_dead_time`) of such a one, which counts as not identifiable, nor does the rest of the
+/// motors' lag.
 void doubt_negative_dead_time(Result& result);
 
 /// Whether flight says another value than was given beforehand, by more than 3 standard deviations.
