@@ -81,6 +81,19 @@ TEST(Vibration, OneRotorOutOfBalanceIsTold) {
   EXPECT_NE(among.vibration.what_is_unbalanced().find("rotor 2"), std::string::npos);
 }
 
+// Where motion is too, little of a tone counts, and little of what is there: that bounds no size.
+TEST(Vibration, ALargeSlowPropellerOutOfBalanceIsToldAmongMotion) {
+  Vehicle vehicle = testing::shaken_vehicle();
+  for (const auto& [name, share] : std::initializer_list<std::pair<const char*, double>>{
+           {"km", 1.0 / 3}, {"kT", 9.0}, {"kQ", 9.0}, {"omega_m", 0.6}})
+    vehicle.parameters.at(name).value *= share;
+  FlightLog log = flown(vehicle, 3, true);
+  const std::vector<std::vector<double>> Omega = log.Omega;
+  testing::shake(log, Omega, 150.0, {0, 0, 0, 8.0}, 0.02);
+  const Freed out = freed(vehicle, log);
+  EXPECT_EQ(out.vibration.stands_out(), 4) << ::testing::PrintToString(out.vibration.of_rotor);
+}
+
 TEST(Vibration, RotorsThatTurnAlikeAreNotToldApart) {
   const Vehicle vehicle = testing::shaken_vehicle();
   FlightLog log = flown(vehicle, 3, true);

@@ -91,17 +91,22 @@ MatrixXd ToneSizes::tones_in(const ToneWindow& window) const {
 ToneSizes::Found ToneSizes::found_from(const ToldWindows& windows) const {
   Found found;
   if (windows.empty()) return found;
-  // No tone is larger than all that is there: of rotors that turn alike only the sum is told.
-  Vector3d square = Vector3d::Zero(), samples = square;
+  // No tone is larger than all that is there: of rotors that turn alike only the sum is told. Where motion is
+  // little is told of a tone and of what is there.
+  Vector3d square = Vector3d::Zero();
+  MatrixXd told = MatrixXd::Zero(windows[0][0].b.size() / 2, 3);  // of a tone of variance one
   for (const auto& window : windows)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      square[static_cast<Index>(axis)] += window[axis].square;
-      samples[static_cast<Index>(axis)] += window[axis].samples;
+    for (Index axis = 0; axis < 3; ++axis) {
+      const Told& of = window[static_cast<std::size_t>(axis)];
+      square[axis] += of.square;
+      for (Index k = 0; k < told.rows(); ++k)
+        told(k, axis) += of.G(2 * k, 2 * k) + of.G(2 * k + 1, 2 * k + 1);
     }
-  found.variance = MatrixXd::Constant(windows[0][0].b.size() / 2, 3, kFirst);
+  const MatrixXd most = (2 * told.cwiseMax(kLeast).cwiseInverse() * square.asDiagonal()).cwiseMax(kLeast);
+  found.variance = MatrixXd::Constant(told.rows(), 3, kFirst);
   for (int round = 0; round < kRounds; ++round) {
     const double before = found.log_likelihood;
-    found = updated(windows, found, (2 * square.cwiseQuotient(samples)).cwiseMax(kLeast));
+    found = updated(windows, found, most);
     if (round > 1 && std::abs(found.log_likelihood - before) < kEnough) break;
   }
   return found;
@@ -118,7 +123,7 @@ ToneSizes::Posterior ToneSizes::posterior(const Told& told, const Found& by, Ind
 }
 
 // The likelihood is that of the variances before.
-ToneSizes::Found ToneSizes::updated(const ToldWindows& windows, const Found& from, const Vector3d& most) {
+ToneSizes::Found ToneSizes::updated(const ToldWindows& windows, const Found& from, const MatrixXd& most) {
   MatrixXd square = MatrixXd::Zero(from.variance.rows(), 3), known = square;
   Vector3d rest = Vector3d::Zero(), free = rest, likelihood = rest;
   in_parallel(3, [&](std::size_t a) {
@@ -138,8 +143,9 @@ ToneSizes::Found ToneSizes::updated(const ToldWindows& windows, const Found& fro
   });
   Found out{MatrixXd(square.rows(), 3), (rest.array() / free.array().max(1.0)).max(kLeast), likelihood.sum()};
   for (Index axis = 0; axis < 3; ++axis)
-    out.variance.col(axis) =
-        (square.col(axis).array() / known.col(axis).array().max(kLeast)).max(kLeast).min(most[axis]);
+    out.variance.col(axis) = (square.col(axis).array() / known.col(axis).array().max(kLeast))
+                                 .max(kLeast)
+                                 .min(most.col(axis).array());
   return out;
 }
 

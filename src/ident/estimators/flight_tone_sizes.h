@@ -52,7 +52,7 @@ class ToneSizes {
 
   static Told told_by(const ToneWindow& window, const Eigen::MatrixXd& tones, Eigen::Index axis);
   static Posterior posterior(const Told& told, const Found& by, Eigen::Index axis);
-  static Found updated(const ToldWindows& windows, const Found& from, const Eigen::Vector3d& most);
+  static Found updated(const ToldWindows& windows, const Found& from, const Eigen::MatrixXd& most);
   Found found_from(const ToldWindows& windows) const;
   Eigen::MatrixXd tones_in(const ToneWindow& window) const;
 
