@@ -30,6 +30,23 @@ TEST(AgainstNaming, WhatARegressionStillPredictsMakesItUnknownByItsShareOfWhatIs
   EXPECT_EQ(exact.judged().status, "unknown");
 }
 
+// Rounding and what smoothing leaves show beside a cause that is huge; another cause in its place leaves
+// more.
+TEST(AgainstNaming, AFiftiethOfAHugeCauseMayBeLeft) {
+  Case huge({"rotor_tilt", "rotor_mismatch"}, {"rotor_tilt"});
+  huge.weighs({0}, 1.0);
+  huge.search.alone[0].gain = 250000.0;
+  huge.rival.gain[0] = 90.0;
+  EXPECT_EQ(huge.judged().status, "identified");
+  huge.rival.gain[0] = 110.0;
+  EXPECT_EQ(huge.judged().status, "unknown");
+  Case two({"rotor_tilt", "rotor_mismatch"}, {"rotor_tilt", "rotor_mismatch"});
+  two.weighs({0, 1}, 1.0);
+  two.search.alone[0].gain = 250000.0;
+  two.rival.gain[0] = 90.0;
+  EXPECT_EQ(two.judged().status, "unknown");
+}
+
 TEST(AgainstNaming, AGapThatMostlyRemainsIsUnknownAndOneThatRemainsInPartIsSaidSo) {
   Case c({"rotor_drag"}, {"rotor_drag"});
   c.weighs({0}, 1.0);

@@ -32,6 +32,9 @@ constexpr double kRivalShareOfDrive = 0.35;  // packs and propellers of one make
 // difference of form as scatter. In 560 blind runs right names left at most 3.5 % of that, wrong ones 5 % up;
 // in 500 more, where one cause is all that was found, right ones at most 5 % and wrong ones 11 % up.
 constexpr double kRivalShareBefore = 0.025, kRivalShareBeforeAlone = 0.06;
+// The same of what any cause explains alone: a fiftieth of its size, for rounded commands and smoothed
+// states. In 1700 blind runs right names left at most 2.5e-4 of that, wrong ones 6.9e-4 and more.
+constexpr double kRivalShareAlone = 4e-4;
 // Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have; and
 // the share of itself by which it then changes. Motors are what they are only nearly.
 constexpr double kChanges = 3.5;
@@ -136,11 +139,13 @@ double of_drive(const Rival& rival) {
 
 // What a regression may gain on held-out flight beside the causes found.
 double allowed_rival(const SearchResult& search) {
-  const double least = std::clamp(search.explained(), kRivalLeast, kRivalMost);
+  const bool alone = search.best.adopted.size() == 1;
+  const double least = std::max(std::clamp(search.explained(), kRivalLeast, kRivalMost),
+                                alone ? kRivalShareAlone * search.explained() : 0.0);
   double before = 0;
   for (const Candidate& c : search.best.adopted)
     if (is_loose(c) || is_of_motors(c)) before += search.gain_before_scatter(c);
-  const double share = search.best.adopted.size() == 1 ? kRivalShareBeforeAlone : kRivalShareBefore;
+  const double share = alone ? kRivalShareBeforeAlone : kRivalShareBefore;
   return before > 0 ? std::max({least, kRivalShare * search.explained(), share * before}) : least;
 }
 
