@@ -92,17 +92,20 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
          chunk_for(record, search.form.noise) < kShorter * search.best.fit.chunk_seconds;
 }
 
-// A diagnosis of a flight that was entered, with what `begun` says of it. None where it would be doubtful and
-// shorter steps of gusts, `fine_gusts`, may tell more.
+// How a flight is looked at: first; closer, with gusts in steps as short as a refinement has them; or as at
+// first where that told nothing.
+enum class Look { first, closer, last };
+
+// A diagnosis of a flight that was entered, with what `begun` says of it. None where a first look would be
+// doubtful and a closer one may tell more, and where a closer one ends with a model that cannot be flown.
 std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
-                                   const GapOptions& options, FlightEntry entry, Result begun,
-                                   bool fine_gusts) {
+                                   const GapOptions& options, FlightEntry entry, Result begun, Look look) {
   auto [p, record, tested, vibration] = std::move(entry);
   Diagnosis out{std::move(begun), {}};
   Result& result = out.result;
   const bool noisy_input = has_noisy_input(record), hover = is_hover(tested);
-  const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover, fine_gusts,
-                                     options.progress};
+  const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
+                                     look == Look::closer, options.progress};
   SearchResult search = search_causes(record, vehicle, p, search_options);
   const Eigen::VectorXd moved = moved_by_rougher_speeds(record, *search.best.theta, search.best.fit);
   const std::vector<std::string> loose = depend_on_smoothing(search.best, moved);
@@ -147,6 +150,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
                         {"closed", number(one.closed)},
                         {"closed_ci95", {number(one.ci95[0]), number(one.ci95[1])}}});
   }
+  if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
   FlightFit body = search.best.fit;
@@ -165,7 +169,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   if (hover) verdict = in_hover(std::move(verdict));
   if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
-  if (doubtful && !fine_gusts && gusts_may_be_all(record, search, gap)) return std::nullopt;
+  if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
@@ -273,12 +277,13 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return out;
   }
   require_turning(record.signals);
-  if (std::optional<Diagnosis> seen =
-          diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, false))
-    return std::move(*seen);
+  for (const Look look : {Look::first, Look::closer})
+    if (std::optional<Diagnosis> seen =
+            diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, look))
+      return std::move(*seen);
   return std::move(*diagnosed(vehicle, logs, options,
                               {std::move(p), std::move(record), std::move(tested), std::move(vibration)},
-                              std::move(result), true));
+                              std::move(result), Look::last));
 }
 
 }  // namespace ident
