@@ -60,8 +60,12 @@ std::vector<Jump> jumps_of(const std::vector<Vector>& more) {
   std::vector<double> sizes;
   for (const Vector& one : more) sizes.push_back(size_of(one));
   std::vector<double> sorted = sizes;
-  std::ranges::sort(sorted);
-  const double usual = kNormal * sorted[sorted.size() / 2], most = sorted[sorted.size() * 19 / 20];
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2,
+             high = sorted.begin() + std::ssize(sorted) * 19 / 20;
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual = kNormal * *middle;
+  std::nth_element(middle, high, sorted.end());
+  const double most = *high;
   std::vector<Jump> out;
   if (!(usual > 0)) return out;  // steps of a coarse sensor
   const double limit = std::max(kUsual * usual, kMost * most);
