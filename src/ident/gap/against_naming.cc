@@ -33,7 +33,7 @@ constexpr double kRivalShareOfDrive = 0.35;  // packs and propellers of one make
 // in 500 more, where one cause is all that was found, right ones at most 5 % and wrong ones 11 % up.
 constexpr double kRivalShareBefore = 0.025, kRivalShareBeforeAlone = 0.06;
 // The same of what any cause explains alone: a fiftieth of its size, for rounded commands and smoothed
-// states. In 1700 blind runs right names left at most 2.5e-4 of that, wrong ones 6.9e-4 and more.
+// states. In 1700 blind runs right names of exact form left at most 2.5e-4 of that, wrong 6.9e-4 and more.
 constexpr double kRivalShareAlone = 4e-4;
 // Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have; and
 // the share of itself by which it then changes. Motors are what they are only nearly.
