@@ -277,10 +277,15 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return out;
   }
   require_turning(record.signals);
-  for (const Look look : {Look::first, Look::closer})
+  if (std::optional<Diagnosis> seen =
+          diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, Look::first))
+    return std::move(*seen);
+  try {
     if (std::optional<Diagnosis> seen =
-            diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, look))
+            diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, Look::closer))
       return std::move(*seen);
+  } catch (const DataError&) {  // no model that stands: the first look had one
+  }
   return std::move(*diagnosed(vehicle, logs, options,
                               {std::move(p), std::move(record), std::move(tested), std::move(vibration)},
                               std::move(result), Look::last));

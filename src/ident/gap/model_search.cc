@@ -75,7 +75,7 @@ class Search {
     if (s_.options.hover) hold_for_hover(base);
     FlightFitOptions patient = s_.fit;  // there is no other base
     patient.most_steps = 0;
-    s_.out.base = model_as_it_is(base, s_.record, s_.p, patient);
+    s_.out.base = fitted(base, {}, s_.record, s_.p, patient);
     if (!stands(s_.out.base))
       throw DataError("the model as it is cannot be fitted to these logs: simulations with it run away");
     s_.fit.steps = s_.out.base.fit.smoother->steps();

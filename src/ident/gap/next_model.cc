@@ -37,7 +37,7 @@ void set_start(FreeConstant& c, const Candidate& cause, const ExtendedProblem& p
 
 // Motors so slow against what was stated that speeds as measured are the input, whatever is commanded.
 bool ignores_commands(const FittedModel& model) {
-  constexpr double kSlower = 10.0;
+  constexpr double kSlower = 20.0;
   const auto is_lag_of = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
   if (std::ranges::any_of(model.adopted, is_lag_of)) return false;
   for (std::size_t i = 0; i < model.constants.size(); ++i)
@@ -121,14 +121,6 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   }
   FittedModel other = fitted(std::move(constants), std::move(adopted), record, at, again);
   return stands(other) && !ignores_commands(other) ? other : found;
-}
-
-FittedModel model_as_it_is(const std::vector<FreeConstant>& base, const FlightRecord& record,
-                           const std::vector<double>& p, const FlightFitOptions& options) {
-  FittedModel model = fitted(base, {}, record, p, options);
-  if (!stands(model) || !ignores_commands(model)) return model;
-  FittedModel held = with_lag_held(base, record, p, options);
-  return stands(held) && held.fit.smoother->surprise() < model.fit.smoother->surprise() ? held : model;
 }
 
 FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,

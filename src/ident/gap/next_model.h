@@ -29,12 +29,6 @@ std::vector<int> places_of(const std::vector<Candidate>& causes, const ExtendedP
 FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, const Standing& at_now,
                         const std::vector<int>& causes, const FlightFitOptions& options);
 
-/// The model as it is; with the motors' lag where it was stated if else they come out so slow that they
-/// ignore their commands, and the flight is less likely so: steps know nothing of how the freedom of the
-/// states goes with the constants.
-FittedModel model_as_it_is(const std::vector<FreeConstant>& base, const FlightRecord& record,
-                           const std::vector<double>& p, const FlightFitOptions& options);
-
 /// The model as it is with the motors' lag where it was stated; its constants keep the priors that were
 /// stated.
 FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
