@@ -184,8 +184,13 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     throw DataError(
         "nothing that moves was logged: rates, attitude or specific force are needed, and a path helps");
   take_out_velocity_bias(record);
-  set_noise(record);
-  set_start(record, p);
+  in_parallel(2, [&](std::size_t part) {
+    if (part == 0)
+      set_motor_start(record, p);
+    else
+      set_noise(record);
+  });
+  set_body_start(record);
   add_slow_errors(record);
   return record;
 }

@@ -84,7 +84,7 @@ std::vector<double> averaged(const std::vector<double>& t, const std::vector<dou
 }
 
 // Motor states by simulating the commands; measured speeds replace the simulated ones.
-void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
+void simulate_motors(FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
   const EffectSet<double> effects(p, active_effects(p));
   Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
   const std::size_t rotors = vehicle.rotors.size();
@@ -100,42 +100,54 @@ void set_motor_start(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
   }
 }
 
-// What moves, by what was measured of it; `sigma` by channel.
-void set_body_start(FlightArc& arc, const std::array<double, kChannels>& sigma) {
-  const std::size_t rows = arc.rows();
+// What was measured of the body of an arc, without gaps; empty columns where nothing was.
+struct BodyColumns {
   std::array<std::vector<double>, 3> w, v, x;
   std::array<std::vector<double>, 4> q;
-  for (int k = 0; k < 3; ++k) {
-    const auto c = static_cast<std::size_t>(k);
-    w[c] = filled_column(arc, kGyro + k), v[c] = filled_column(arc, kVelocity + k),
-    x[c] = averaged(arc.t, filled_column(arc, kPosition + k), sigma[kPosition + c]);
-  }
-  for (std::size_t k = 0; k < 4; ++k) {
-    std::vector<double> c(rows);
-    for (std::size_t i = 0; i < rows; ++i) c[i] = arc.q[4 * i + k];
-    q[k] = interpolated(arc.t, c);
-  }
-  for (std::size_t i = 0; i < rows; ++i) {
-    BodyState<double>& b = arc.start[i].body;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
-      b.w_B[at] = filled(w[k], i, 0.0);
-      b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
-      b.v_W[at] = filled(v[k], i, 0.0);
-      if (v[k].empty() && !x[k].empty()) {
-        const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
-        b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
-      }
+};
+
+BodyColumns body_columns(const FlightArc& arc, const std::array<double, kChannels>& sigma) {
+  BodyColumns of;
+  in_parallel(13, [&](std::size_t c) {
+    const std::size_t k = c % 3;
+    const int axis = static_cast<int>(k);
+    if (c < 3) {
+      of.w[k] = filled_column(arc, kGyro + axis);
+    } else if (c < 6) {
+      of.v[k] = filled_column(arc, kVelocity + axis);
+    } else if (c < 9) {
+      of.x[k] = averaged(arc.t, filled_column(arc, kPosition + axis), sigma[kPosition + k]);
+    } else {
+      std::vector<double> q(arc.rows());
+      for (std::size_t i = 0; i < q.size(); ++i) q[i] = arc.q[4 * i + (c - 9)];
+      of.q[c - 9] = interpolated(arc.t, q);
     }
-    for (std::size_t k = 0; k < 4; ++k)
-      b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
-    b.q_WB.normalize();
-    if (w[0].empty() && !q[0].empty() && i + 1 < rows) {
-      const Vec4<double> a(q[0][i], q[1][i], q[2][i], q[3][i]),
-          e(q[0][i + 1], q[1][i + 1], q[2][i + 1], q[3][i + 1]);
-      const Vec4<double> d = quaternion_product(conjugate(a), e);
-      for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
+  });
+  return of;
+}
+
+void set_body(FlightArc& arc, const BodyColumns& of, std::size_t i) {
+  const auto& [w, v, x, q] = of;
+  const std::size_t rows = arc.rows();
+  BodyState<double>& b = arc.start[i].body;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    b.w_B[at] = filled(w[k], i, 0.0);
+    b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
+    b.v_W[at] = filled(v[k], i, 0.0);
+    if (v[k].empty() && !x[k].empty()) {
+      const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
+      b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
     }
+  }
+  for (std::size_t k = 0; k < 4; ++k)
+    b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
+  b.q_WB.normalize();
+  if (w[0].empty() && !q[0].empty() && i + 1 < rows) {
+    const Vec4<double> a(q[0][i], q[1][i], q[2][i], q[3][i]),
+        e(q[0][i + 1], q[1][i + 1], q[2][i + 1], q[3][i + 1]);
+    const Vec4<double> d = quaternion_product(conjugate(a), e);
+    for (int k = 0; k < 3; ++k) b.w_B[k] = 2 * d[1 + k] * (d[0] < 0 ? -1 : 1) / (arc.t[i + 1] - arc.t[i]);
   }
 }
 
@@ -181,14 +193,23 @@ void set_noise(FlightRecord& record) {
   }
 }
 
-void set_start(FlightRecord& record, std::span<const double> p) {
-  for (FlightArc& arc : record.arcs) arc.start.resize(arc.rows());
-  in_parallel(2 * record.arcs.size(), [&](std::size_t number) {
-    FlightArc& arc = record.arcs[number / 2];
-    if (number % 2 == 0)
-      set_body_start(arc, record.sigma);
-    else if (arc.inputs->commanded())
-      set_motor_start(arc, *record.vehicle, p);
+void set_motor_start(FlightRecord& record, std::span<const double> p) {
+  in_parallel(record.arcs.size(), [&](std::size_t number) {
+    FlightArc& arc = record.arcs[number];
+    arc.start.resize(arc.rows());
+    if (arc.inputs->commanded()) simulate_motors(arc, *record.vehicle, p);
+  });
+}
+
+void set_body_start(FlightRecord& record) {
+  constexpr std::size_t kBlock = 2000;  // rows
+  in_parallel(record.arcs.size(), [&](std::size_t number) {
+    FlightArc& arc = record.arcs[number];
+    const BodyColumns of = body_columns(arc, record.sigma);
+    in_parallel(arc.rows() / kBlock + 1, [&](std::size_t block) {
+      const std::size_t end = std::min((block + 1) * kBlock, arc.rows());
+      for (std::size_t i = block * kBlock; i < end; ++i) set_body(arc, of, i);
+    });
   });
 }
 

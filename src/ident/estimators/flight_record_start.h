@@ -14,7 +14,10 @@ std::vector<double> filled_column(const FlightArc& arc, int channel);
 /// White noise of every channel from differences of its samples.
 void set_noise(FlightRecord& record);
 
-/// States of all rows as measured, motors simulated with the constants `p`.
-void set_start(FlightRecord& record, std::span<const double> p);
+/// States of all rows, their motors simulated with the constants `p`.
+void set_motor_start(FlightRecord& record, std::span<const double> p);
+
+/// The rest of those states, as measured; asks for the noise.
+void set_body_start(FlightRecord& record);
 
 }  // namespace ident

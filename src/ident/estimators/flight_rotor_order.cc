@@ -270,24 +270,29 @@ Trial best_trial(const std::vector<Streams>& arcs, double interval, const Vehicl
 
 }  // namespace
 
-RotorAgreement test_rotors(const FlightRecord& record, const Vehicle& vehicle, std::span<const double> p,
-                           bool rates_confirmed) {
-  RotorAgreement out;
+RotorTest test_rotors(const FlightRecord& record, const Vehicle& vehicle, std::span<const double> p) {
+  std::array<Trial, 2> best;  // of commands, and of measured speeds
   const Signals& s = record.signals;
-  if (!s.rates && !s.attitude) return out;
-  for (const bool measured : {false, true}) {
-    if (measured ? !s.rotor_speeds : !s.commands) continue;
-    std::vector<Streams> arcs;
-    for (const FlightArc& arc : record.arcs)
-      arcs.push_back(streams_of(arc, rotor_speeds(arc, vehicle, p, measured)));
-    const Trial best = best_trial(arcs, record.interval, vehicle, p);
-    if (best.all.empty()) continue;
-    out.correlation = best.all[0].r, out.windows = best.windows;
-    out.thrust_variation = best.thrust_variation;
-    if (const auto found = finding(best.all, rates_confirmed, measured ? "rotor speeds" : "commands"))
-      out.findings.push_back(*found);
-  }
-  return out;
+  if (s.rates || s.attitude)
+    in_parallel(best.size(), [&](std::size_t measured) {
+      if (measured ? !s.rotor_speeds : !s.commands) return;
+      std::vector<Streams> arcs;
+      for (const FlightArc& arc : record.arcs)
+        arcs.push_back(streams_of(arc, rotor_speeds(arc, vehicle, p, measured != 0)));
+      best[measured] = best_trial(arcs, record.interval, vehicle, p);
+    });
+  return [best = std::move(best)](bool rates_confirmed) {
+    RotorAgreement out;
+    for (std::size_t measured = 0; measured < best.size(); ++measured) {
+      const Trial& one = best[measured];
+      if (one.all.empty()) continue;
+      out.correlation = one.all[0].r, out.windows = one.windows;
+      out.thrust_variation = one.thrust_variation;
+      if (const auto found = finding(one.all, rates_confirmed, measured ? "rotor speeds" : "commands"))
+        out.findings.push_back(*found);
+    }
+    return out;
+  };
 }
 
 }  // namespace ident

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/parallel.h"
+
 namespace ident {
 namespace {
 
@@ -103,11 +105,18 @@ void test_health(const FlightRecord& record, std::span<const FlightLog> logs,
 
 std::vector<Warning> self_test(const FlightRecord& record, std::span<const FlightLog> logs,
                                const Vehicle& vehicle, std::span<const double> p) {
-  const SensorFrames frames = test_sensor_frames(record, vehicle.g);
+  SensorFrames frames;
+  RotorTest rotors_by;
+  in_parallel(2, [&](std::size_t part) {
+    if (part == 0)
+      frames = test_sensor_frames(record, vehicle.g);
+    else
+      rotors_by = test_rotors(record, vehicle, p);
+  });
   std::vector<Warning> findings = frames.findings;
   // Rotors are judged by the rates: only where those are not in doubt already.
   if (findings.empty()) {
-    const RotorAgreement rotors = test_rotors(record, vehicle, p, frames.rates_confirmed);
+    const RotorAgreement rotors = rotors_by(frames.rates_confirmed);
     findings = rotors.findings;
     if (findings.empty()) test_excitation(rotors, findings);
   }

@@ -2,6 +2,7 @@
 // fitted: a wrong axis makes every estimate wrong, so it is named first.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,7 +39,9 @@ struct RotorAgreement {
   std::array<double, 3> correlation{};
   double windows = 0, thrust_variation = 0;
 };
-RotorAgreement test_rotors(const FlightRecord& record, const Vehicle& vehicle, std::span<const double> p,
-                           bool rates_confirmed);
+/// What `rates_confirmed` rules out: rates about axes that run backwards.
+using RotorTest = std::function<RotorAgreement(bool rates_confirmed)>;
+/// Tries every order; what it makes of them waits until it is known of the rates.
+RotorTest test_rotors(const FlightRecord& record, const Vehicle& vehicle, std::span<const double> p);
 
 }  // namespace ident

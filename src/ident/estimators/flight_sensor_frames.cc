@@ -95,6 +95,45 @@ void in_body_axes(const FlightArc& arc, const ChangeWindows& windows, double gra
   }
 }
 
+struct Agreements {
+  Agreement turns, positions, velocities, forces;  ///< (1), (3), (2), (4)
+};
+
+/// Of all that was logged, whether or not it comes to be asked for.
+Agreements agreements_of(const FlightRecord& record, double gravity) {
+  const Signals& s = record.signals;
+  const bool felt = s.force && s.attitude && (s.velocity || s.position);
+  const auto velocities = [&](const FlightArc& arc) {
+    return Streams{velocity_W(arc), velocity_of_force(arc, gravity)};
+  };
+  const auto forces = [](const FlightArc& arc) {
+    return Streams{velocity_W(arc), integrals(arc, specific_force(arc))};
+  };
+  const auto in_body = [&](const FlightArc& arc, const ChangeWindows& windows, Track3& seen) {
+    in_body_axes(arc, windows, gravity, seen);
+  };
+  Agreements out;
+  const std::array<std::function<void()>, 4> parts = {[&] {
+                                                        if (felt)
+                                                          out.forces =
+                                                              agreement(record, 0.4, forces, in_body);
+                                                      },
+                                                      [&] {
+                                                        if (felt)
+                                                          out.velocities = agreement(record, 0.3, velocities);
+                                                      },
+                                                      [&] {
+                                                        if (s.rates && s.attitude)
+                                                          out.turns = agreement(record, 0.15, turns);
+                                                      },
+                                                      [&] {
+                                                        if (s.velocity && s.position)
+                                                          out.positions = agreement(record, 0.3, positions);
+                                                      }};
+  in_parallel(parts.size(), [&](std::size_t part) { parts[part](); });
+  return out;
+}
+
 std::vector<std::size_t> reversed(const Eigen::Matrix3d& c) {
   std::vector<std::size_t> axes;
   for (Eigen::Index k = 0; k < 3; ++k)
@@ -173,9 +212,10 @@ void test_gravity(const FlightRecord& record, double gravity, std::vector<Warnin
 SensorFrames test_sensor_frames(const FlightRecord& record, double gravity) {
   SensorFrames out;
   const Signals& s = record.signals;
+  const Agreements found = agreements_of(record, gravity);
   if (s.force) test_gravity(record, gravity, out.findings);
   if (s.rates && s.attitude) {
-    const Eigen::Matrix3d c = agreement(record, 0.15, turns).c;
+    const Eigen::Matrix3d& c = found.turns.c;
     out.rates_confirmed = c.diagonal().minCoeff() > 0.5;
     if (reversed(c).size() == 3)
       out.findings.push_back(
@@ -187,27 +227,14 @@ SensorFrames test_sensor_frames(const FlightRecord& record, double gravity) {
   }
   const bool moves = s.velocity || s.position;
   if (!out.findings.empty() || !moves) return out;  // what follows relies on attitude and gravity
-  const std::string name = "the specific force";
   const Names moving = s.velocity ? Names{"vx", "vy", "vz"} : Names{"x", "y", "z"};
-  if (s.velocity && s.position)
-    name_world(agreement(record, 0.3, positions).c, {"x", "y", "z"}, "the velocity", out.findings);
+  if (s.velocity && s.position) name_world(found.positions.c, {"x", "y", "z"}, "the velocity", out.findings);
   if (!s.force || !s.attitude) return out;
   const std::size_t before = out.findings.size();
-  const auto velocities = [&](const FlightArc& arc) {  // (2)
-    return Streams{velocity_W(arc), velocity_of_force(arc, gravity)};
-  };
-  name_world(agreement(record, 0.3, velocities).c, moving, name, out.findings);
+  name_world(found.velocities.c, moving, "the specific force", out.findings);
   if (out.findings.size() > before) return out;
-  const Agreement body = agreement(
-      record, 0.4,
-      [](const FlightArc& arc) {
-        return Streams{velocity_W(arc), integrals(arc, specific_force(arc))};
-      },
-      [&](const FlightArc& arc, const ChangeWindows& windows, Track3& seen) {
-        in_body_axes(arc, windows, gravity, seen);
-      });
   for (Eigen::Index k = 0; k < 2; ++k)  // az has its gravity
-    if (body.c(k, k) < kAgainst && body.slope[k] < -0.4 && body.slope[k] > -2.5)
+    if (found.forces.c(k, k) < kAgainst && found.forces.slope[k] < -0.4 && found.forces.slope[k] > -2.5)
       out.findings.push_back(
           {"sign_flipped", fmt::format("a{}: runs against the acceleration that the velocity "
                                        "and attitude show: reverse its sign in a map file",

@@ -36,10 +36,10 @@ struct MeanSquare {
   void add(const Stray& of, std::size_t lag) {
     struct Window {
       Vector3d stray;
-      MatrixXd G;
+      Stray::Slopes G;
     };
     const auto mean = [&](std::size_t first) {
-      Stray::Bin all{0.0, Vector3d::Zero(), MatrixXd::Zero(3, of.nuisances)};
+      Stray::Bin all{0.0, Vector3d::Zero(), Stray::Slopes::Zero(3, of.nuisances)};
       for (std::size_t k = first; k < first + kMean; ++k)
         all.count += of.bins[k].count, all.stray += of.bins[k].stray, all.G += of.bins[k].G;
       return all;

@@ -8,7 +8,6 @@
 namespace ident {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 namespace {
@@ -32,14 +31,14 @@ Eigen::Matrix3d cross_matrix(const Vector3d& v) {
 
 }  // namespace
 
-void Stray::add(double t, const Vector3d& stray, const MatrixXd& G) {
+void Stray::add(double t, const Vector3d& stray, const Slopes& G) {
   if (std::isfinite(begin_))
     steps += 1, square += (stray - last_).squaredNorm(), seconds += t - t_last_;
   else
     begin_ = t;
   last_ = stray, t_last_ = t;
   const auto at = static_cast<std::size_t>((t - begin_) / kStrayBin);
-  while (bins.size() <= at) bins.push_back({0.0, Vector3d::Zero(), MatrixXd::Zero(3, nuisances)});
+  while (bins.size() <= at) bins.push_back({0.0, Vector3d::Zero(), Slopes::Zero(3, nuisances)});
   bins[at].count += 1, bins[at].stray += stray, bins[at].G += G;
 }
 
@@ -64,7 +63,7 @@ Stray stray_of_attitude(const FlightArc& arc) {
       stray += rotation_vector_from_quaternion(quaternion_product(conjugate(before), q)) -
                rotation_vector_from_quaternion(turned);
     before = q, turned = still, begun = true;
-    MatrixXd G = MatrixXd::Zero(3, out.nuisances);
+    Stray::Slopes G = Stray::Slopes::Zero(3, out.nuisances);
     for (Index axis = 0; axis < 3; ++axis)
       G.row(axis).segment<7>(7 * axis) << angle.transpose(), rate[i].transpose(), arc.t[i] - arc.t[0];
     out.add(arc.t[i], stray, G);
@@ -93,7 +92,7 @@ Stray stray_of_velocity(const FlightArc& arc, double gravity) {
     }
     pull_before = pull, slope_before = slope;
     if (!group_at(arc, i, kVelocity).allFinite()) continue;
-    MatrixXd G(3, out.nuisances);
+    Stray::Slopes G(3, out.nuisances);
     G << turned, R_WB * cross_matrix(arc.start[i].body.w_B), pull,
         (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
     out.add(arc.t[i], group_at(arc, i, kVelocity) + stray, G);
@@ -110,7 +109,7 @@ Stray stray_of_position(const FlightArc& arc) {
   for (std::size_t i = 0; i < arc.rows(); ++i) {
     if (i > 0) path += 0.5 * (arc.t[i] - arc.t[i - 1]) * (velocity[i] + velocity[i - 1]);
     if (!group_at(arc, i, kPosition).allFinite()) continue;
-    MatrixXd G(3, out.nuisances);
+    Stray::Slopes G(3, out.nuisances);
     G << velocity[i], rotation(arc.start[i].body.q_WB), (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
     out.add(arc.t[i], group_at(arc, i, kPosition) - path, G);
   }

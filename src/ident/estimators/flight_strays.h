@@ -13,17 +13,18 @@ inline constexpr double kStrayBin = 0.05;  ///< s
 /// The stray at its samples, and what goes with the nuisances: columns of G, of which one unknown each is
 /// common to all axes. Sums over bins of time, of which some may be empty.
 struct Stray {
+  using Slopes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 21>;
   struct Bin {
     double count = 0;
     Eigen::Vector3d stray = Eigen::Vector3d::Zero();
-    Eigen::MatrixXd G;
+    Slopes G;
   };
   Eigen::Index nuisances;
   std::vector<Bin> bins;
   double steps = 0, square = 0, seconds = 0;  ///< from sample to sample; squares of all axes
 
   explicit Stray(Eigen::Index of) : nuisances(of) {}
-  void add(double t, const Eigen::Vector3d& stray, const Eigen::MatrixXd& G);
+  void add(double t, const Eigen::Vector3d& stray, const Slopes& G);
 
  private:
   double begin_ = kNaN, t_last_ = kNaN;

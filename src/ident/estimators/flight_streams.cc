@@ -209,16 +209,25 @@ bool StreamOffset::matters(double interval, double shortest) const {
 
 StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
   const Signals& s = record.signals;
-  std::vector<Sides> turns, forces;
-  for (const FlightArc& arc : record.arcs) {
-    if (arc.rows() < 2) continue;
+  const auto turns = [](const FlightArc& arc) {
     const auto all = [](const Track3& x) { return std::vector<Track>(x.begin(), x.end()); };
-    if (s.rates && s.attitude) turns.push_back({all(turn_of_attitude(arc)), all(turn_of_rates(arc))});
-    if (s.force && s.velocity) forces.push_back({{sum_of_acceleration(arc, gravity)}, {sum_of_force(arc)}});
-  }
+    return Sides{all(turn_of_attitude(arc)), all(turn_of_rates(arc))};
+  };
+  const auto forces = [&](const FlightArc& arc) {
+    return Sides{{sum_of_acceleration(arc, gravity)}, {sum_of_force(arc)}};
+  };
+  const auto offset_by = [&](bool logged, const auto& sides_of) {
+    std::vector<Sides> sides;
+    for (const FlightArc& arc : record.arcs)
+      if (logged && arc.rows() > 1) sides.push_back(sides_of(arc));
+    return offset_of(sides, record.interval);
+  };
   StreamOffsets found;
   in_parallel(2, [&](std::size_t which) {
-    (which == 0 ? found.rates : found.force) = offset_of(which == 0 ? turns : forces, record.interval);
+    if (which == 0)
+      found.rates = offset_by(s.rates && s.attitude, turns);
+    else
+      found.force = offset_by(s.force && s.velocity, forces);
   });
   return found;
 }

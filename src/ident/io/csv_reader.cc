@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "ident/core/error.h"
 #include "ident/io/text_encoding.h"
@@ -65,6 +66,11 @@ void CsvReader::read_header() {
     ahead.push_back({sample.back(), line_});
   }
   ahead_ = std::move(ahead);
+  std::size_t bytes = 0;
+  for (const std::string& row : sample) bytes += row.size() + 1;
+  std::error_code no_size;
+  if (const std::uintmax_t size = std::filesystem::file_size(path_, no_size); bytes > 0 && !no_size)
+    about_rows_ = static_cast<std::size_t>(size) * sample.size() / bytes;
   dialect_ = sniff_dialect(header, sample);
   std::vector<std::string_view> cells;
   if (!split_cells(header, dialect_.separator, cells))

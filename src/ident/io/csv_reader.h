@@ -21,6 +21,8 @@ class CsvReader {
   const std::vector<std::string>& header() const { return header_; }  ///< UTF-8, as they stand there
   long header_line() const { return header_line_; }
   const CsvDialect& dialect() const { return dialect_; }
+  /// About how many rows the file holds, by its size and its first lines; 0 where it has no size.
+  std::size_t about_rows() const { return about_rows_; }
 
   /// The cells of the next row, as many as the header has; false at the end. They hold until the next call.
   bool next_row(std::vector<std::string_view>& cells);
@@ -55,6 +57,7 @@ class CsvReader {
   std::string current_;  ///< text of a line that was taken from `ahead_`
   std::vector<std::string> header_;
   std::size_t named_ = 0;  ///< columns up to the last one with a name
+  std::size_t about_rows_ = 0;
   CsvDialect dialect_;
   std::vector<Warning> warnings_;
   long header_line_ = 0, line_ = 0, rows_ = 0;

@@ -29,7 +29,7 @@ using Vector = std::array<double, 4>;
 Vector operator+(const Vector& a, const Vector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
 }
-double size_of(const Vector& a) { return std::hypot(std::hypot(a[0], a[1]), std::hypot(a[2], a[3])); }
+double size_of(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3]); }
 
 struct Jump {
   std::size_t after = 0;  // place in the sampled rows

@@ -44,6 +44,8 @@ class Loop {
     table_.file = path;
     for (const ChosenColumn& c : columns) table_.columns.push_back({c.name, csv.header()[c.index], {}});
     for (const ChosenText& c : text) table_.text.push_back({c.name, {}});
+    for (Column& column : table_.columns) column.values.reserve(csv.about_rows());
+    table_.line.reserve(csv.about_rows());
   }
 
   NumberTable run() {
