@@ -83,7 +83,7 @@ TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
   log.file = "fast.csv", log.t = times(10'000, 1000);
   log.w_B = shown(log.t, 1000, 0.02, 50, 1), log.f_B = shown(log.t, 1000, 0.1, 0, 2);
   std::vector<Warning> warnings;
-  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), warnings);
+  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), false, warnings);
   ASSERT_EQ(out.size(), 1u);
   const std::size_t stride = white_stride(log.t, log.w_B);
   ASSERT_GT(stride, 1u);
@@ -94,6 +94,26 @@ TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].code, "filtered_noise");
   EXPECT_NE(warnings[0].message.find("fast.csv: p q r"), std::string::npos) << warnings[0].message;
+}
+
+// Without attitude more samples of one sensor would decide between two that are late differently.
+TEST(WhitenedSensors, LeavesAsFewOfTheOtherWhereAsked) {
+  FlightLog log;
+  log.file = "fast.csv", log.t = times(10'000, 1000);
+  log.w_B = shown(log.t, 1000, 0.02, 50, 1), log.f_B = shown(log.t, 1000, 0.1, 0, 2);
+  for (auto& column : log.f_B)  // at half the rate of the rates
+    for (std::size_t i = 1; i < column.size(); i += 2) column[i] = kNaN;
+  std::vector<Warning> warnings;
+  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), true, warnings);
+  ASSERT_EQ(out.size(), 1u);
+  const auto left = [](const std::vector<double>& column) {
+    return static_cast<double>(std::ranges::count_if(column, [](double y) { return std::isfinite(y); }));
+  };
+  EXPECT_LT(left(out[0].w_B[1]), 3000);
+  EXPECT_NEAR(left(out[0].f_B[1]), left(out[0].w_B[1]), 0.15 * left(out[0].w_B[1]));
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[1].message.find("ax ay az: as few samples as of the other sensor"), std::string::npos)
+      << warnings[1].message;
 }
 
 // Counted as white, noise below 45 Hz in a log of 1000 Hz passes for gusts, and what the rotors do is lost in

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <memory>
 
@@ -29,25 +30,38 @@ bool of_every_log(const FlightRecord& excerpt, const FlightRecord& record) {
 }
 
 // A fit begun, its noise found if that is asked for. Where the first steps do not come near, the likelier of
-// two: that one, and one that knew what the model does not explain before it took any. In a search for what
-// is missing this one also where the other is bent for it.
+// two: that one, and one that knew what the model does not explain before it took any; where they run away,
+// the other. In a search for what is missing this one also where the first is bent for it.
 std::unique_ptr<Fitting> started(const FlightRecord& record, const Theta& theta,
                                  const FlightFitOptions& options, const Tell& tell) {
   auto fit = std::make_unique<Fitting>(record, theta, options);
-  fit->begin();
-  if (!options.estimate_noise) return fit;
-  const bool misses = fit->misses();
-  fit->find_noise(tell);
-  if (misses) try {
-      auto other = std::make_unique<Fitting>(record, theta, options);
-      other->begin_with_noise();
-      other->find_noise([](double) {});
-      const double by_steps = fit->surprise(), by_noise = other->surprise();
+  bool misses = false;
+  std::exception_ptr ran_away;
+  try {
+    fit->begin();
+    if (!options.estimate_noise) return fit;
+    misses = fit->misses();
+    fit->find_noise(tell);
+  } catch (const DataError&) {
+    if (!options.estimate_noise) throw;
+    ran_away = std::current_exception();
+  }
+  if (!misses && !ran_away) return fit;
+  try {
+    auto other = std::make_unique<Fitting>(record, theta, options);
+    other->begin_with_noise();
+    other->find_noise([](double) {});
+    const double by_noise = other->surprise();
+    if (std::isfinite(by_noise)) {
+      if (ran_away) return other;
+      const double by_steps = fit->surprise();
       const bool likelier = !(by_steps <= by_noise);
       const bool bends_less = fit->pull() > kBent && other->pull() < fit->pull();
-      if (std::isfinite(by_noise) && (likelier || (options.rough_noise && bends_less))) return other;
-    } catch (const DataError&) {  // nothing flies from there
+      if (likelier || (options.rough_noise && bends_less)) return other;
     }
+  } catch (const DataError&) {  // nothing flies from there
+  }
+  if (ran_away) std::rethrow_exception(ran_away);
   return fit;
 }
 
@@ -70,10 +84,12 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
       } catch (const DataError&) {  // too little of it to be simulated; the whole may be
       }
   }
-  if (begun)
-    fitting->find_noise(tell(0.4, 0.8));
-  else
-    fitting = started(record, theta, options, tell(0.4, 0.8));
+  if (begun) try {
+      fitting->find_noise(tell(0.4, 0.8));
+    } catch (const DataError&) {  // where the excerpt led, the rest does not fly
+      begun = false;
+    }
+  if (!begun) fitting = started(record, theta, options, tell(0.4, 0.8));
   if (options.estimate_noise && !begun && fitting->steps_show()) fitting->find_noise(tell(0.6, 0.8));
   FlightFit fit = fitting->finish();
   tell(0, 1)(1.0);

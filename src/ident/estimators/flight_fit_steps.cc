@@ -115,10 +115,11 @@ const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u) {
 }
 
 bool is_finite(const ReducedSystem& system) {
-  // Where a simulation has run away rounding leaves less than nothing of a sum of squares.
-  constexpr double kRounding = 1e-3;
-  return std::isfinite(system.cost) && system.cost >= -kRounding * std::abs(system.fall) &&
-         system.S.allFinite() && system.g.allFinite();
+  // Where a simulation has run away rounding leaves less than nothing of a sum of squares. Motors that are
+  // held to their commands by next to no noise make the largest fall that means anything, some 1e20.
+  constexpr double kRounding = 1e-3, kRanAway = 1e30;
+  return std::isfinite(system.cost) && std::abs(system.fall) < kRanAway &&
+         system.cost >= -kRounding * std::abs(system.fall) && system.S.allFinite() && system.g.allFinite();
 }
 
 double samples_of(const FlightRecord& record) {

@@ -18,6 +18,8 @@
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
+#include "ident/estimators/flight_steady_push.h"
+#include "ident/estimators/flight_thrust_curve.h"
 #include "ident/estimators/flight_trim.h"
 #include "ident/estimators/flight_validation.h"
 #include "ident/estimators/statistics.h"
@@ -228,6 +230,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   as_before_flight(result.parameters, known, held);
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
+  warn_of_steady_push(result, steady_push(record, fit), vehicle.g);
   warn_about(result, theta, fit);
   warn_of_inertia(result, theta, fit);
   result.fit["seconds"] = record.duration;
@@ -247,6 +250,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
       levels[channel_name(c)] = fit.noise.sigma[static_cast<std::size_t>(c)];
   result.fit["noise"] = levels;
+  const std::vector<ThrustAt> thrust = thrust_over_commands(record, logs, theta, body);
+  if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
   const int n = static_cast<int>(result.parameters.size());
   for (int i = 0; i < n; ++i) result.correlation_names.push_back(theta.name(i));
   const VectorXd s = fit.covariance.diagonal().head(n).cwiseSqrt().cwiseInverse();
@@ -258,6 +263,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
                                               theta.name(k), theta.name(i), result.correlation(i, k)));
   if (options.shown != Shown::numbers) {
     result.sections.push_back(data_health(record, logs, fit.noise, vibration));
+    if (!thrust.empty()) result.sections.push_back(thrust_section(thrust));
     result.sections.push_back(flight_residuals(record, fit));
     result.sections.push_back(outside_accelerations(record, fit));
   }

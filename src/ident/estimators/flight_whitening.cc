@@ -84,30 +84,44 @@ std::size_t white_stride(const std::vector<double>& t, const Sensor& sensor) {
   return best;
 }
 
-std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, std::vector<Warning>& warnings) {
-  struct Named {
+std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, bool alike,
+                                        std::vector<Warning>& warnings) {
+  struct Imu {
     Sensor FlightLog::*sensor;
     const char* name;
+    std::vector<std::size_t> rows{};
+    double interval = kNaN;
+    std::size_t own = 1, stride = 1;  // that makes its noise white, and that is taken
   };
-  static constexpr std::array<Named, 2> kImu = {{{&FlightLog::w_B, "p q r"}, {&FlightLog::f_B, "ax ay az"}}};
   std::vector<FlightLog> out;
-  for (std::size_t n = 0; n < logs.size(); ++n)
-    for (const auto& [member, name] : kImu) {
-      const std::size_t stride = (logs[n].*member)[0].empty() ? 1 : white_stride(logs[n].t, logs[n].*member);
-      if (stride == 1) continue;
+  for (std::size_t n = 0; n < logs.size(); ++n) {
+    std::array<Imu, 2> imu = {{{&FlightLog::w_B, "p q r"}, {&FlightLog::f_B, "ax ay az"}}};
+    double longest = 0;  // s between samples that are left
+    for (Imu& one : imu) {
+      const Sensor& sensor = logs[n].*one.sensor;
+      if (!sensor[0].empty()) one.rows = sampled_rows(sensor);
+      if (one.rows.size() < 2) continue;
+      one.interval = usual_interval(logs[n].t, one.rows);
+      one.own = one.stride = white_stride(logs[n].t, sensor);
+      if (one.own > 1) longest = std::max(longest, static_cast<double>(one.own) * one.interval);
+    }
+    for (Imu& one : imu) {
+      if (alike && longest > kEven * one.interval)
+        one.stride = static_cast<std::size_t>(std::lround(longest / one.interval));
+      if (one.stride == 1) continue;
       if (out.empty()) out.assign(logs.begin(), logs.end());
-      Sensor& sensor = out[n].*member;
-      const std::vector<std::size_t> rows = sampled_rows(sensor);
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        if (k % stride != 0)
-          for (std::vector<double>& c : sensor) c[rows[k]] = kNaN;
+      for (std::size_t k = 0; k < one.rows.size(); ++k)
+        if (k % one.stride != 0)
+          for (std::vector<double>& c : out[n].*one.sensor) c[one.rows[k]] = kNaN;
       warnings.push_back(
           {"filtered_noise",
-           fmt::format("{}: {}: neighbouring samples share their noise, as after a filter: one in {} counts, "
-                       "{:.0f} a second",
-                       logs[n].file, name, stride,
-                       1 / (static_cast<double>(stride) * usual_interval(logs[n].t, rows)))});
+           fmt::format("{}: {}: {}: one in {} counts, {:.0f} a second", logs[n].file, one.name,
+                       one.own == one.stride
+                           ? "neighbouring samples share their noise, as after a filter"
+                           : "as few samples as of the other sensor, whose neighbours share their noise",
+                       one.stride, 1 / (static_cast<double>(one.stride) * one.interval))});
     }
+  }
   return out;
 }
 

@@ -1,0 +1,23 @@
+// What pushes a vehicle up or down in the mean of its flight. Gusts do not: it is thrust that is not as
+// fitted.
+#pragma once
+
+#include "ident/core/result.h"
+#include "ident/estimators/flight_fit.h"
+
+namespace ident {
+
+/// Mean acceleration from outside along z of the body (down), m/s^2, and how far gusts as strong as those
+/// that were found may take it.
+struct SteadyPush {
+  double mean = 0.0, std = 0.0;
+
+  /// Whether thrust is off by more than a twentieth of the weight, beyond chance.
+  bool matters(double gravity) const;
+};
+SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit);
+
+/// Warns of a push that matters: with it no constant is known that sets the thrust.
+void warn_of_steady_push(Result& result, const SteadyPush& push, double gravity);
+
+}  // namespace ident

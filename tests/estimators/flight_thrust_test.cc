@@ -1,0 +1,65 @@
+// What a refinement says of thrust as a whole: its curve over the commands, and whether it carries the
+// weight.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/flight_refine.h"
+#include "support/known_quad.h"
+
+namespace ident {
+namespace {
+
+using testing::flight;
+using testing::known;
+using testing::quad;
+
+const RefineOptions kNumbers{.validate = false};
+
+TEST(ThrustOverCommands, IsKnownWhereItsConstantsAreKnownOnlyTogether) {
+  const Vehicle truth = quad();
+  FlightLog log = flight(truth, 250, 1);
+  log.Omega.clear();
+  const Result result = refine_flight(known(truth), std::span(&log, 1), kNumbers);
+  ASSERT_TRUE(result.fit.contains("thrust_by_command"));
+  const auto& curve = result.fit["thrust_by_command"];
+  ASSERT_EQ(curve.size(), 7u);
+  const Parameter& kT = *result.find("kT");
+  for (const auto& point : curve) {
+    const double u = point["command"], T = point["thrust"], std = point["std"];
+    const double right = truth.value("kT") * std::pow(truth.value("km") * u, 2);
+    EXPECT_NEAR(T, right, 4 * std) << u;
+    EXPECT_GT(std, 1e-5 * T);
+    EXPECT_LT(std / T, 0.3 * kT.std / kT.value) << u;
+  }
+  EXPECT_LT(curve.front()["command"].get<double>(), curve.back()["command"].get<double>());
+}
+
+TEST(ThrustOverCommands, AsksForCommands) {
+  const Vehicle truth = quad();
+  FlightLog log = flight(truth, 250, 1);
+  log.delta.clear();
+  const Result result = refine_flight(known(truth), std::span(&log, 1), kNumbers);
+  EXPECT_FALSE(result.fit.contains("thrust_by_command"));
+}
+
+// Nothing but gusts can make up for a thrust constant that is held where it is wrong.
+TEST(SteadyPush, ThrustThatDoesNotCarryTheWeightIsNamed) {
+  const Vehicle truth = quad();
+  const FlightLog log = flight(truth, 250, 2);
+  for (const double factor : {1.0, 0.85, 1.12}) {
+    Vehicle stated = known(truth);
+    for (const char* name : {"kT", "km", "m"}) stated.parameters[name].std = 1e-6 * truth.value(name);
+    stated.parameters["Omega_0"] = {0.0, {}}, stated.parameters["kT"].value *= factor;
+    const Result result = refine_flight(stated, std::span(&log, 1), kNumbers);
+    const auto w = std::ranges::find(result.warnings, "thrust_level", &Warning::code);
+    ASSERT_EQ(w != result.warnings.end(), factor != 1.0) << factor;
+    if (factor == 1.0) continue;
+    const std::string by = factor < 1 ? "15 % less" : "12 % more";
+    EXPECT_NE(w->message.find(by), std::string::npos) << w->message;
+  }
+}
+
+}  // namespace
+}  // namespace ident
