@@ -74,5 +74,21 @@ TEST(RealRefinement, TheLogOfThrustAloneGivesItsCurveAsPublished) {
   EXPECT_FALSE(result.has_warning("thrust_level"));
 }
 
+// A speed proportional to the command leaves a tenth of the weight to a gust that lasts for the whole flight,
+// and pulls the mass by eight deviations.
+TEST(RealRefinement, ThrustThatDoesNotCarryTheWeightIsTriedWithAnOffset) {
+  IDENT_NEEDS_REAL_DATA(folder);
+  Vehicle vehicle = crazypad_crazyflie();
+  vehicle.parameters.erase("Omega_0");
+  vehicle.parameters["m"] = {0.0347, 1e-3};
+  const std::string map = std::string(IDENT_SOURCE_DIR) + "/data/maps/nanobench_crazyflie.yaml";
+  const FlightLog log =
+      read_flight_log(folder + "/flight/nanobench/B2_circle_slow_rep2.csv", vehicle, read_log_map(map));
+  const Result result = refine_flight(vehicle, std::span(&log, 1), {.validate = false});
+  EXPECT_TRUE(result.has_warning("command_offset"));
+  EXPECT_FALSE(result.has_warning("thrust_level"));
+  EXPECT_NEAR(value_of(result, "m"), 0.0347, 1.5e-3);  // 0.0309 without
+}
+
 }  // namespace
 }  // namespace ident

@@ -30,6 +30,10 @@ void watch_command_offset(std::vector<FreeConstant>& constants, const Vehicle& v
   constants.push_back(offset);
 }
 
+bool watches_command_offset(const Theta& theta) {
+  return std::ranges::any_of(theta.constants(), &FreeConstant::watched);
+}
+
 bool shows_command_offset(const Theta& theta, const FlightFit& fit) {
   const auto watched = std::ranges::find_if(theta.constants(), &FreeConstant::watched);
   if (watched == theta.constants().end() || std::ssize(fit.blocks) < kFewBlocks) return false;

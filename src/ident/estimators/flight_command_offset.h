@@ -11,6 +11,9 @@ namespace ident {
 void watch_command_offset(std::vector<FreeConstant>& constants, const Vehicle& vehicle,
                           const FlightRecord& record, const std::vector<double>& p);
 
+/// Whether it is watched in this fit.
+bool watches_command_offset(const Theta& theta);
+
 /// Whether the logs contradict a speed proportional to the command beyond any doubt: one Newton step from the
 /// fit with the watched Omega_0 free, against its spread over blocks of time.
 bool shows_command_offset(const Theta& theta, const FlightFit& fit);

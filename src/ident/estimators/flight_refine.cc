@@ -29,11 +29,59 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
+constexpr std::size_t kProfiles = 3;   // of weak constants; more take longer than the fit
+constexpr double kBeyondDoubt = 25.0;  // fall of minus twice the log likelihood
 
 std::vector<std::string> with_command_offset(std::vector<std::string> names) {
   names.push_back("Omega_0");
   return names;
+}
+
+struct Fitted {
+  std::unique_ptr<Theta> theta;
+  FlightFit fit;
+};
+
+// A fit of these constants; of Omega_0 too where the logs ask for it, in which case `result` is told.
+Fitted fit_and_ask_for_offset(const Vehicle& vehicle, const std::vector<double>& p,
+                              const FlightRecord& record, std::vector<FreeConstant> constants, bool ask,
+                              const RefineOptions& options, Result& result) {
+  FlightFitOptions fit_options;
+  fit_options.progress = options.progress;
+  fit_options.steps = Steps::longest;  // on the way to its exact end
+  if (ask) watch_command_offset(constants, vehicle, record, p);
+  const auto theta_of = [&](std::vector<FreeConstant> of) {
+    return std::make_unique<Theta>(p, std::move(of), record.logs, record.signals.rates);
+  };
+  Fitted one{theta_of(std::move(constants)), {}};
+  one.fit = fit_flight(record, *one.theta, fit_options);
+  const bool seen = shows_command_offset(*one.theta, one.fit);
+  // What stays for the whole flight passes for a gust once noise is that strong: where thrust is off, the
+  // offset is tried, and has to put it right.
+  const bool tried =
+      !seen && watches_command_offset(*one.theta) && steady_push(record, one.fit).matters(vehicle.g);
+  if (!seen && !tried) return one;
+  Fitted other{theta_of(free_constants(vehicle, p, with_command_offset(options.free))), {}};
+  if (seen) {  // the offset stands last here as it did while it was watched: from where that fit ended
+    fit_options.start = one.fit.u, fit_options.noise = one.fit.noise;
+    fit_options.noise->axes = GustAxes::world;
+  }  // else anew: that noise would hide it again
+  try {
+    other.fit = fit_flight(record, *other.theta, fit_options);
+  } catch (const DataError&) {  // nothing flies with it
+    if (seen) throw;
+    return one;
+  }
+  const auto puts_right = [&] {
+    return other.fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt &&
+           !steady_push(record, other.fit).matters(vehicle.g);
+  };
+  if (tried && !puts_right()) return one;
+  result.warn(
+      "command_offset",
+      "the rotors' speed is not proportional to the command: Omega_0, their speed at command 0 as the "
+      "line through the flown commands gives it, is estimated too");
+  return other;
 }
 
 nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
@@ -203,23 +251,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   const std::vector<FreeConstant> known = constants;
   std::vector<std::string> held;
   if (is_hover(tested)) held = hold_for_hover(constants);
-  FlightFitOptions fit_options;
-  fit_options.progress = options.progress;
-  fit_options.steps = Steps::longest;  // on the way to its exact end
-  if (held.empty()) watch_command_offset(constants, vehicle, record, p);
-  auto free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
-  FlightFit fit = fit_flight(record, *free, fit_options);
-  if (shows_command_offset(*free, fit)) {
-    result.warn(
-        "command_offset",
-        "the rotors' speed is not proportional to the command: Omega_0, their speed at command 0 as the "
-        "line through the flown commands gives it, is estimated too");
-    constants = free_constants(vehicle, p, with_command_offset(options.free));
-    free = std::make_unique<Theta>(p, constants, record.logs, record.signals.rates);
-    // The offset stands last here as it did while it was watched: from where that fit ended.
-    fit_options.start = fit.u, fit_options.noise = fit.noise, fit_options.noise->axes = GustAxes::world;
-    fit = fit_flight(record, *free, fit_options);
-  }
+  auto [free, fit] = fit_and_ask_for_offset(vehicle, p, record, constants, held.empty(), options, result);
   const Theta& theta = *free;
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);
