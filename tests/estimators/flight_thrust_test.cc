@@ -55,10 +55,30 @@ TEST(SteadyPush, ThrustThatDoesNotCarryTheWeightIsNamed) {
     const Result result = refine_flight(stated, std::span(&log, 1), kNumbers);
     const auto w = std::ranges::find(result.warnings, "thrust_level", &Warning::code);
     ASSERT_EQ(w != result.warnings.end(), factor != 1.0) << factor;
+    EXPECT_EQ(result.find("Jxx")->identifiable, factor == 1.0);  // moments are known by what thrust does
+    EXPECT_EQ(result.fit.contains("thrust_by_command"), factor == 1.0);
     if (factor == 1.0) continue;
     const std::string by = factor < 1 ? "15 % less" : "12 % more";
     EXPECT_NE(w->message.find(by), std::string::npos) << w->message;
   }
+}
+
+// What leans against a wind is held down by nothing.
+TEST(SteadyPush, DragOfAVehicleThatLeansIsNone) {
+  Vehicle truth = quad();
+  const Vehicle stated = known(truth);
+  truth.parameters["wind.north"] = {6.0, {}}, truth.parameters["parasitic_drag.C"] = {0.02, {}};
+  SimulationOptions options;
+  options.seed = 3, options.duration = 30, options.turbulence = 0.2;
+  const FlightLog log = simulate_flight(truth, options).log;
+  double lean = 0;  // mean cosine of the tilt
+  for (std::size_t i = 0; i < log.rows(); ++i)
+    lean += (1 - 2 * (std::pow(log.q_WB[1][i], 2) + std::pow(log.q_WB[2][i], 2))) /
+            static_cast<double>(log.rows());
+  ASSERT_LT(lean, std::cos(0.2));
+  const Result result = refine_flight(stated, std::span(&log, 1), kNumbers);
+  EXPECT_FALSE(result.has_warning("thrust_level"));
+  EXPECT_FALSE(result.has_warning("command_offset"));
 }
 
 }  // namespace

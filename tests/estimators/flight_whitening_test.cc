@@ -82,8 +82,10 @@ TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
   FlightLog log;
   log.file = "fast.csv", log.t = times(10'000, 1000);
   log.w_B = shown(log.t, 1000, 0.02, 50, 1), log.f_B = shown(log.t, 1000, 0.1, 0, 2);
+  log.q_WB[0].assign(log.rows(), 1.0);
+  for (std::size_t k = 1; k < 4; ++k) log.q_WB[k].assign(log.rows(), 0.0);
   std::vector<Warning> warnings;
-  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), false, warnings);
+  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), warnings);
   ASSERT_EQ(out.size(), 1u);
   const std::size_t stride = white_stride(log.t, log.w_B);
   ASSERT_GT(stride, 1u);
@@ -97,14 +99,14 @@ TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
 }
 
 // Without attitude more samples of one sensor would decide between two that are late differently.
-TEST(WhitenedSensors, LeavesAsFewOfTheOtherWhereAsked) {
+TEST(WhitenedSensors, LeavesAsFewOfTheOtherWithoutAttitude) {
   FlightLog log;
   log.file = "fast.csv", log.t = times(10'000, 1000);
   log.w_B = shown(log.t, 1000, 0.02, 50, 1), log.f_B = shown(log.t, 1000, 0.1, 0, 2);
   for (auto& column : log.f_B)  // at half the rate of the rates
     for (std::size_t i = 1; i < column.size(); i += 2) column[i] = kNaN;
   std::vector<Warning> warnings;
-  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), true, warnings);
+  const std::vector<FlightLog> out = whitened_sensors(std::span(&log, 1), warnings);
   ASSERT_EQ(out.size(), 1u);
   const auto left = [](const std::vector<double>& column) {
     return static_cast<double>(std::ranges::count_if(column, [](double y) { return std::isfinite(y); }));

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/error.h"
+#include "ident/estimators/flight_steady_push.h"
+
 namespace ident {
 
 using Eigen::MatrixXd;
@@ -28,10 +31,6 @@ void watch_command_offset(std::vector<FreeConstant>& constants, const Vehicle& v
   offset.watched = true;
   offset.prior_value = offset.start, offset.prior_std = kHeld * offset.scale;
   constants.push_back(offset);
-}
-
-bool watches_command_offset(const Theta& theta) {
-  return std::ranges::any_of(theta.constants(), &FreeConstant::watched);
 }
 
 bool shows_command_offset(const Theta& theta, const FlightFit& fit) {
@@ -60,6 +59,44 @@ bool shows_command_offset(const Theta& theta, const FlightFit& fit) {
     spread += std::pow(direction.dot(block.score + block.information * step), 2);
   const double stretch = std::max(spread / direction.dot(F * direction), 1.0);
   return g.dot(solved(g)) > kBeyondDoubt * stretch && std::abs(step[at]) > kMatters;
+}
+
+FittedFlight fit_with_offset_if_asked(const Vehicle& vehicle, const std::vector<double>& p,
+                                      const FlightRecord& record, std::vector<FreeConstant> constants,
+                                      const OffsetOptions& options, Result& result) {
+  FlightFitOptions fit_options;
+  fit_options.progress = options.progress;
+  fit_options.steps = Steps::longest;  // on the way to its exact end
+  if (options.ask) watch_command_offset(constants, vehicle, record, p);
+  const bool watched = std::ranges::any_of(constants, &FreeConstant::watched);
+  const auto theta_of = [&](std::vector<FreeConstant> of) {
+    return std::make_unique<Theta>(p, std::move(of), record.logs, record.signals.rates);
+  };
+  FittedFlight one{theta_of(std::move(constants)), {}};
+  one.fit = fit_flight(record, *one.theta, fit_options);
+  const bool seen = shows_command_offset(*one.theta, one.fit);
+  // What stays for the whole flight passes for a gust once noise is that strong.
+  if (!seen && !(watched && steady_push(record, one.fit).matters(vehicle.g))) return one;
+  std::vector<std::string> also = options.also;
+  also.emplace_back("Omega_0");
+  FittedFlight other{theta_of(free_constants(vehicle, p, also)), {}};
+  if (seen) {  // the offset stands last here as it did while it was watched: from where that fit ended
+    fit_options.start = one.fit.u, fit_options.noise = one.fit.noise;
+    fit_options.noise->axes = GustAxes::world;
+  }  // else anew: that noise would hide it again
+  try {
+    other.fit = fit_flight(record, *other.theta, fit_options);
+  } catch (const DataError&) {  // nothing flies with it
+    if (seen) throw;
+    return one;
+  }
+  const bool likelier = other.fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt;
+  if (!seen && !(likelier && !steady_push(record, other.fit).matters(vehicle.g))) return one;
+  result.warn(
+      "command_offset",
+      "the rotors' speed is not proportional to the command, or the mass or kT as stated is wrong: Omega_0, "
+      "their speed at command 0 as the line through the flown commands gives it, is estimated too");
+  return other;
 }
 
 }  // namespace ident

@@ -106,10 +106,7 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
   if (!still.empty()) entry.record = make_flight_record(vehicle, entry.p, logs);
   const std::vector<FlightLog> aligned = aligned_streams(entry.record, logs, vehicle.g, result.warnings);
   const std::span<const FlightLog> in_time = aligned.empty() ? logs : std::span<const FlightLog>(aligned);
-  // Without attitude nothing tells how late a filter made each sensor, and if more samples of one counted
-  // they would decide between two that are late differently.
-  const std::vector<FlightLog> white =
-      whitened_sensors(in_time, !entry.record.signals.attitude, result.warnings);
+  const std::vector<FlightLog> white = whitened_sensors(in_time, result.warnings);
   if (const auto& moved = white.empty() ? aligned : white; !moved.empty())
     entry.record = make_flight_record(vehicle, entry.p, moved);
   for (const FlightLog& log : logs) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_fit_steps.h"
@@ -70,7 +71,20 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
   const auto covariance = [&] { return inverse_of(smoother.reduced().S + prior_information(theta, fit.u)); };
   if (options.exact) smoother.set_steps(Steps::fine);
   // Slopes in single precision may be too coarse to simulate anything.
-  if (!minimum(false) || (options.exact && rounding_shows(smoother, covariance()))) minimum(true);
+  if (!minimum(false)) {
+    minimum(true);
+  } else if (options.exact && rounding_shows(smoother, covariance())) {
+    const std::vector<FlightState<double>> states = smoother.states();
+    const VectorXd u = fit.u;
+    try {
+      minimum(true);
+    } catch (const DataError&) {  // what little is known of states goes astray there
+      smoother.set_exact(false);
+      smoother.set_states(states);
+      linearize_at(smoother, fit.u = u);
+      smoother.accept();
+    }
+  }
   fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
   fit.information = smoother.reduced().S;
   const MatrixXd prior = prior_information(theta, fit.u);

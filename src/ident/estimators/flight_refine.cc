@@ -29,60 +29,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::size_t kProfiles = 3;   // of weak constants; more take longer than the fit
-constexpr double kBeyondDoubt = 25.0;  // fall of minus twice the log likelihood
-
-std::vector<std::string> with_command_offset(std::vector<std::string> names) {
-  names.push_back("Omega_0");
-  return names;
-}
-
-struct Fitted {
-  std::unique_ptr<Theta> theta;
-  FlightFit fit;
-};
-
-// A fit of these constants; of Omega_0 too where the logs ask for it, in which case `result` is told.
-Fitted fit_and_ask_for_offset(const Vehicle& vehicle, const std::vector<double>& p,
-                              const FlightRecord& record, std::vector<FreeConstant> constants, bool ask,
-                              const RefineOptions& options, Result& result) {
-  FlightFitOptions fit_options;
-  fit_options.progress = options.progress;
-  fit_options.steps = Steps::longest;  // on the way to its exact end
-  if (ask) watch_command_offset(constants, vehicle, record, p);
-  const auto theta_of = [&](std::vector<FreeConstant> of) {
-    return std::make_unique<Theta>(p, std::move(of), record.logs, record.signals.rates);
-  };
-  Fitted one{theta_of(std::move(constants)), {}};
-  one.fit = fit_flight(record, *one.theta, fit_options);
-  const bool seen = shows_command_offset(*one.theta, one.fit);
-  // What stays for the whole flight passes for a gust once noise is that strong: where thrust is off, the
-  // offset is tried, and has to put it right.
-  const bool tried =
-      !seen && watches_command_offset(*one.theta) && steady_push(record, one.fit).matters(vehicle.g);
-  if (!seen && !tried) return one;
-  Fitted other{theta_of(free_constants(vehicle, p, with_command_offset(options.free))), {}};
-  if (seen) {  // the offset stands last here as it did while it was watched: from where that fit ended
-    fit_options.start = one.fit.u, fit_options.noise = one.fit.noise;
-    fit_options.noise->axes = GustAxes::world;
-  }  // else anew: that noise would hide it again
-  try {
-    other.fit = fit_flight(record, *other.theta, fit_options);
-  } catch (const DataError&) {  // nothing flies with it
-    if (seen) throw;
-    return one;
-  }
-  const auto puts_right = [&] {
-    return other.fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt &&
-           !steady_push(record, other.fit).matters(vehicle.g);
-  };
-  if (tried && !puts_right()) return one;
-  result.warn(
-      "command_offset",
-      "the rotors' speed is not proportional to the command: Omega_0, their speed at command 0 as the "
-      "line through the flown commands gives it, is estimated too");
-  return other;
-}
+constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
 
 nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
   nlohmann::ordered_json std = nlohmann::ordered_json::array(), time = std;
@@ -200,11 +147,24 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
     if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;
   if (!unknown.empty()) {
     std::string text = "these logs do not determine " + unknown;
-    const std::vector<std::string> pairs = combinations(theta, fit, result.parameters);
+    std::vector<std::string> pairs;
+    if (!result.has_warning("thrust_level")) pairs = combinations(theta, fit, result.parameters);
     for (std::size_t i = 0; i < pairs.size(); ++i)
       text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
     result.warn("not_identifiable", text);
   }
+}
+
+// What a filter made late passes for lag of the motors where nothing else tells.
+void warn_of_filter_lag(Result& result, const Signals& logged) {
+  if (logged.attitude || !logged.commands || !result.has_warning("filtered_noise") ||
+      result.find("dead_time"))
+    return;
+  result.warn(
+      "filter_lag",
+      "rates and specific force were filtered, and without attitude nothing tells how late that made "
+      "them: it counts as lag of the motors, which comes out longer by that; '--free dead_time' takes "
+      "a delay out of it");
 }
 
 Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise,
@@ -251,7 +211,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   const std::vector<FreeConstant> known = constants;
   std::vector<std::string> held;
   if (is_hover(tested)) held = hold_for_hover(constants);
-  auto [free, fit] = fit_and_ask_for_offset(vehicle, p, record, constants, held.empty(), options, result);
+  auto [free, fit] = fit_with_offset_if_asked(
+      vehicle, p, record, constants,
+      {.ask = held.empty(), .also = options.free, .progress = options.progress}, result);
   const Theta& theta = *free;
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);
@@ -262,8 +224,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   as_before_flight(result.parameters, known, held);
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
-  warn_of_steady_push(result, steady_push(record, fit), vehicle.g);
+  const SteadyPush push = steady_push(record, fit);
+  warn_of_steady_push(result, push, vehicle.g);
   warn_about(result, theta, fit);
+  warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);
   result.fit["seconds"] = record.duration;
   result.fit["steps"] = fit.steps;
@@ -282,7 +246,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
       levels[channel_name(c)] = fit.noise.sigma[static_cast<std::size_t>(c)];
   result.fit["noise"] = levels;
-  const std::vector<ThrustAt> thrust = thrust_over_commands(record, logs, theta, body);
+  std::vector<ThrustAt> thrust;
+  if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
   if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
   const int n = static_cast<int>(result.parameters.size());
   for (int i = 0; i < n; ++i) result.correlation_names.push_back(theta.name(i));

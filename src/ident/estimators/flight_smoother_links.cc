@@ -30,6 +30,9 @@ constexpr double kMotorFloor = 100.0;
 constexpr double kUnseenRate = 1e-2, kUnseenAttitude = 1.0, kUnseenVelocity = 2.5e-3, kUnseenPlace = 1e-4;
 constexpr int kAllTold = 4;  // rotors, by the motion alone
 constexpr double kUnseenSpeed = 1e-3, kUnseenSpeeding = 1e-7;
+// Of four, where rates and forces are all that tells of them, and that may come ten times as slowly as motors
+// settle: 300 rad/s and 30000 rad/s^2, for thrust is no line over so much.
+constexpr double kHardlySeenSpeed = 1e-5, kHardlySeenSpeeding = 1e-9;
 
 std::array<bool, kChannels> measured_in(const FlightArc& arc) {
   std::array<bool, kChannels> seen{};
@@ -54,9 +57,12 @@ VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
   assume(layout.attitude, kUnseenAttitude, kAttitude, kAttitude);
   assume(layout.v, kUnseenVelocity, kVelocity, kPosition);
   assume(layout.x, kUnseenPlace, kPosition, kPosition);
-  for (int n = 0; n < layout.rotors && layout.rotors > kAllTold && layout.motors >= 0; ++n)
-    if (!seen[static_cast<std::size_t>(kRotorChannel + n)])
-      info[layout.motors + n] = kUnseenSpeed, info[layout.motors + layout.rotors + n] = kUnseenSpeeding;
+  const bool untold = layout.rotors > kAllTold, hardly = !untold && layout.attitude < 0;
+  for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
+    if (seen[static_cast<std::size_t>(kRotorChannel + n)] || !(untold || hardly)) continue;
+    info[layout.motors + n] = untold ? kUnseenSpeed : kHardlySeenSpeed;
+    info[layout.motors + layout.rotors + n] = untold ? kUnseenSpeeding : kHardlySeenSpeeding;
+  }
   return info;
 }
 

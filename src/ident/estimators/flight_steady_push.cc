@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace ident {
 namespace {
@@ -31,7 +33,9 @@ SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit) {
     const FlightState<double>& x = smoother.states()[k];
     const double h = arc.t[place.end] - arc.t[place.begin];
     const Eigen::Vector3d& push = x.outside.v_dot;
-    sum += h * (x.outside.axes == GustAxes::world ? rotation(x.body.q_WB).col(2).dot(push) : push[2]);
+    // What drags a vehicle that leans has no part in it. Without attitude the body is taken as level.
+    const bool turned = record.layout.attitude >= 0 && x.outside.axes == GustAxes::body;
+    sum += h * (turned ? rotation(x.body.q_WB).row(2).dot(push) : push[2]);
     const ColouredNoise& gust = fit.noise.in_log(arc.log).v_dot[2];
     seconds += h, variance += h * 2 * gust.sigma * gust.sigma * std::min(gust.tau, kSlowestGust);
   }
@@ -46,8 +50,10 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, double gravity)
                           "command's speed (another curve, a battery that sags), or a stated constant is "
                           "wrong (try ident gap)",
                           100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
+  static constexpr std::array<std::string_view, 12> kByThrust = {
+      "m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"};
   for (Parameter& p : result.parameters)
-    if (p.identifiable && (p.name == "kT" || p.name == "km" || p.name == "Omega_0" || p.name == "m"))
+    if (p.identifiable && std::ranges::find(kByThrust, p.name) != kByThrust.end())
       p.identifiable = false, p.note = "thrust as fitted is not what the vehicle felt";
 }
 

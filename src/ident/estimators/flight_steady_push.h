@@ -7,8 +7,8 @@
 
 namespace ident {
 
-/// Mean acceleration from outside along z of the body (down), m/s^2, and how far gusts as strong as those
-/// that were found may take it.
+/// Mean acceleration from outside along the vertical (down) over all logs, m/s^2, and how far gusts as strong
+/// as those that were found may take it.
 struct SteadyPush {
   double mean = 0.0, std = 0.0;
 
@@ -17,7 +17,8 @@ struct SteadyPush {
 };
 SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit);
 
-/// Warns of a push that matters: with it no constant is known that sets the thrust.
+/// Warns of a push that matters: with it no constant is known that sets the thrust, or is told by what thrust
+/// does.
 void warn_of_steady_push(Result& result, const SteadyPush& push, double gravity);
 
 }  // namespace ident

@@ -84,8 +84,7 @@ std::size_t white_stride(const std::vector<double>& t, const Sensor& sensor) {
   return best;
 }
 
-std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, bool alike,
-                                        std::vector<Warning>& warnings) {
+std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, std::vector<Warning>& warnings) {
   struct Imu {
     Sensor FlightLog::*sensor;
     const char* name;
@@ -106,7 +105,7 @@ std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, bool al
       if (one.own > 1) longest = std::max(longest, static_cast<double>(one.own) * one.interval);
     }
     for (Imu& one : imu) {
-      if (alike && longest > kEven * one.interval)
+      if (!logs[n].has_attitude() && longest > kEven * one.interval)
         one.stride = static_cast<std::size_t>(std::lround(longest / one.interval));
       if (one.stride == 1) continue;
       if (out.empty()) out.assign(logs.begin(), logs.end());

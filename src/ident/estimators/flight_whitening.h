@@ -12,10 +12,10 @@ namespace ident {
 
 /// The logs with so many samples of rates and of specific force left that their noise is about white, each
 /// with a warning `filtered_noise`: noise below a filter's cut-off says nothing new in samples faster than
-/// twice that, and would be counted as if it did. With `alike` as few are left of the one sensor as of the
-/// other. Empty where nothing has to be left out.
-std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, bool alike,
-                                        std::vector<Warning>& warnings);
+/// twice that, and would be counted as if it did. Of a log without attitude, which does not tell how late a
+/// filter made each sensor, about as few are left of the one as of the other: more would decide between two
+/// that are late differently. Empty where nothing has to be left out.
+std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, std::vector<Warning>& warnings);
 
 /// One in so many samples of a sensor has noise that is about white; 1 where no noise is to be seen.
 std::size_t white_stride(const std::vector<double>& t, const std::array<std::vector<double>, 3>& sensor);

@@ -13,6 +13,7 @@ namespace ident {
 namespace {
 
 constexpr std::size_t kSniffedLines = 50;
+constexpr double kMostGuessed = 1e6;  // rows, for which room is made at once
 constexpr double kShortRowsAllowed =
     0.02;  // share of rows with missing cells that is dropped instead of refused
 
@@ -66,11 +67,6 @@ void CsvReader::read_header() {
     ahead.push_back({sample.back(), line_});
   }
   ahead_ = std::move(ahead);
-  std::size_t bytes = 0;
-  for (const std::string& row : sample) bytes += row.size() + 1;
-  std::error_code no_size;
-  if (const std::uintmax_t size = std::filesystem::file_size(path_, no_size); bytes > 0 && !no_size)
-    about_rows_ = static_cast<std::size_t>(size) * sample.size() / bytes;
   dialect_ = sniff_dialect(header, sample);
   std::vector<std::string_view> cells;
   if (!split_cells(header, dialect_.separator, cells))
@@ -80,6 +76,18 @@ void CsvReader::read_header() {
   named_ = header_.size();
   while (named_ > 0 && header_[named_ - 1].empty()) --named_;
   expect_names();
+  guess_rows(sample);
+}
+
+void CsvReader::guess_rows(const std::vector<std::string>& sample) {
+  std::size_t bytes = 0;
+  for (const std::string& row : sample) bytes += row.size() + 1;
+  std::error_code no_size;  // of a pipe
+  const auto size = static_cast<double>(std::filesystem::file_size(path_, no_size));
+  if (bytes == 0 || no_size) return;
+  const double rows = size * static_cast<double>(sample.size()) / static_cast<double>(bytes);
+  const double cells = size / static_cast<double>(std::max<std::size_t>(named_, 1));
+  about_rows_ = static_cast<std::size_t>(std::min({rows, cells, kMostGuessed}));
 }
 
 void CsvReader::expect_names() const {

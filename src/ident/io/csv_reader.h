@@ -48,6 +48,7 @@ class CsvReader {
   bool next_content_line(std::string_view& line);
   void read_header();
   void expect_names() const;
+  void guess_rows(const std::vector<std::string>& sample);
   void take_short_row(const std::vector<std::string_view>& cells);
   void close();
 
