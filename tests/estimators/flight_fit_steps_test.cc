@@ -36,5 +36,20 @@ TEST(FlightFitSteps, OneStepIsTakenWhereTheWholeOneFails) {
   }
 }
 
+// Less than nothing of a sum of squares is no minimum: a real flight's steps ended with -1e58 of a fall of
+// 1e71.
+TEST(FlightFitSteps, WhatRanAwayIsNoCost) {
+  ReducedSystem system{.cost = 4e5, .fall = 7.5e13, .g = Eigen::VectorXd::Zero(2)};
+  system.S = Eigen::MatrixXd::Identity(2, 2);
+  EXPECT_TRUE(is_finite(system));
+  system.cost = -1e-9, system.fall = 1e-3;  // of exact logs
+  EXPECT_TRUE(is_finite(system));
+  for (const auto& [cost, fall] :
+       {std::pair{-1e58, 1.8e71}, {-6e43, 7.8e47}, {1e20, 1e35}, {-1.0, 10.0}, {kNaN, 1.0}}) {
+    system.cost = cost, system.fall = fall;
+    EXPECT_FALSE(is_finite(system)) << cost << ' ' << fall;
+  }
+}
+
 }  // namespace
 }  // namespace ident

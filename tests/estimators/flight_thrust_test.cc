@@ -18,22 +18,27 @@ using testing::quad;
 const RefineOptions kNumbers{.validate = false};
 
 TEST(ThrustOverCommands, IsKnownWhereItsConstantsAreKnownOnlyTogether) {
-  const Vehicle truth = quad();
-  FlightLog log = flight(truth, 250, 1);
-  log.Omega.clear();
-  const Result result = refine_flight(known(truth), std::span(&log, 1), kNumbers);
-  ASSERT_TRUE(result.fit.contains("thrust_by_command"));
-  const auto& curve = result.fit["thrust_by_command"];
-  ASSERT_EQ(curve.size(), 7u);
-  const Parameter& kT = *result.find("kT");
-  for (const auto& point : curve) {
-    const double u = point["command"], T = point["thrust"], std = point["std"];
-    const double right = truth.value("kT") * std::pow(truth.value("km") * u, 2);
-    EXPECT_NEAR(T, right, 4 * std) << u;
-    EXPECT_GT(std, 1e-5 * T);
-    EXPECT_LT(std / T, 0.3 * kT.std / kT.value) << u;
+  for (const double offset : {0.0, 150.0}) {
+    Vehicle truth = quad();
+    truth.parameters["Omega_0"] = {offset, {}};
+    FlightLog log = flight(truth, 250, 1);
+    log.Omega.clear();
+    Vehicle stated = known(truth);
+    stated.parameters["Omega_0"].std = 0.2 * offset + 1e-3;
+    const Result result = refine_flight(stated, std::span(&log, 1), kNumbers);
+    ASSERT_TRUE(result.fit.contains("thrust_by_command"));
+    const auto& curve = result.fit["thrust_by_command"];
+    ASSERT_EQ(curve.size(), 7u);
+    const Parameter& kT = *result.find("kT");
+    for (const auto& point : curve) {
+      const double u = point["command"], T = point["thrust"], deviation = point["std"];
+      const double right = truth.value("kT") * std::pow(offset + truth.value("km") * u, 2);
+      EXPECT_NEAR(T, right, 4 * deviation) << u;
+      EXPECT_GT(deviation, 1e-5 * T);
+      EXPECT_LT(deviation / T, 0.3 * kT.std / kT.value) << u;
+    }
+    EXPECT_LT(curve.front()["command"].get<double>(), curve.back()["command"].get<double>());
   }
-  EXPECT_LT(curve.front()["command"].get<double>(), curve.back()["command"].get<double>());
 }
 
 TEST(ThrustOverCommands, AsksForCommands) {
