@@ -79,8 +79,8 @@ Stray stray_of_velocity(const FlightArc& arc, double gravity) {
   if (force.empty()) return out;
   Vector3d stray = Vector3d::Zero();
   Eigen::Matrix<double, 3, 10> turned = Eigen::Matrix<double, 3, 10>::Zero();  // by the accelerometer's own
-  Eigen::Matrix<double, 3, 10> slope_before;
-  Vector3d pull_before;
+  Eigen::Matrix<double, 3, 10> slope_before = turned;
+  Vector3d pull_before = stray;
   for (std::size_t i = 0; i < arc.rows(); ++i) {
     const Eigen::Matrix3d R_WB = rotation(arc.start[i].body.q_WB);
     const Vector3d f = force[i], pull = R_WB * f + Vector3d(0, 0, gravity);
