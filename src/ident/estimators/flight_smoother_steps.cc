@@ -22,7 +22,7 @@ double FlightSmoother::noise_that_makes(const std::vector<VectorXd>& defects) co
     const VectorXd& d = defects[k];
     VectorXd outside = VectorXd::Zero(layout.size);
     if (layout.w_dot >= 0) outside.segment<3>(layout.w_dot) = d.segment<3>(layout.w) / h;
-    if (layout.v_dot >= 0) {
+    if (layout.v_dot >= 0 && layout.v >= 0) {
       Eigen::Vector3d push = d.segment<3>(layout.v) / h;
       if (noise_.axes == GustAxes::body) push = rotation(states_[k].body.q_WB).transpose() * push;
       outside.segment<3>(layout.v_dot) = push;
