@@ -48,8 +48,7 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, double gravity)
       "thrust_level",
       fmt::format(
           "in the mean of these logs the rotors as fitted lift {:.0f} % {} than the vehicle felt, and no "
-          "gust "
-          "lasts as long: thrust does not go with the square of the command's speed (another curve, a "
+          "gust lasts as long: thrust does not go with the square of the command's speed (another curve, a "
           "battery that sags), a stated constant is wrong, or the model lacks an effect (try ident gap)",
           100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
   static constexpr std::array<std::string_view, 12> kByThrust = {
