@@ -9,7 +9,6 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_channels.h"
-#include "ident/estimators/flight_command_offset.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
 #include "ident/estimators/flight_inertia.h"
@@ -22,6 +21,7 @@
 #include "ident/estimators/flight_thrust_curve.h"
 #include "ident/estimators/flight_trim.h"
 #include "ident/estimators/flight_validation.h"
+#include "ident/estimators/flight_watched.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -156,10 +156,12 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
 }
 
 // What a filter made late passes for lag of the motors where nothing else tells.
+bool filter_lag_is_open(const Result& result, const Signals& logged) {
+  return !logged.attitude && logged.commands && result.has_warning("filtered_noise");
+}
+
 void warn_of_filter_lag(Result& result, const Signals& logged) {
-  if (logged.attitude || !logged.commands || !result.has_warning("filtered_noise") ||
-      result.find("dead_time"))
-    return;
+  if (!filter_lag_is_open(result, logged) || result.find("dead_time")) return;
   result.warn(
       "filter_lag",
       "rates and specific force were filtered, and without attitude nothing tells how late that made "
@@ -211,9 +213,12 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   const std::vector<FreeConstant> known = constants;
   std::vector<std::string> held;
   if (is_hover(tested)) held = hold_for_hover(constants);
-  auto [free, fit] = fit_with_offset_if_asked(
-      vehicle, p, record, constants,
-      {.ask = held.empty(), .also = options.free, .progress = options.progress}, result);
+  std::vector<std::string> watched;
+  if (held.empty()) watched = {"Omega_0"};
+  if (held.empty() && !filter_lag_is_open(result, record.signals)) watched.emplace_back("dead_time");
+  auto [free, fit] =
+      fit_and_watch(vehicle, p, record, constants,
+                    {.watched = watched, .also = options.free, .progress = options.progress}, result);
   const Theta& theta = *free;
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);

@@ -1,0 +1,41 @@
+// Constants that a vehicle file need not state, and that a flight may contradict: whether rotor speed is
+// proportional to the command (brushed motors and many speed controllers have an offset), and follows it
+// without a dead time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "ident/core/result.h"
+#include "ident/estimators/flight_fit.h"
+
+namespace ident {
+
+/// Adds those of `names` (Omega_0, dead_time) to the constants of a fit, held where they are and watched:
+/// what the flight says against that comes with the fit. Not one that the vehicle states or that is free.
+void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
+           const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p);
+
+/// The watched constant that the logs contradict most, if any beyond doubt: one Newton step from the fit
+/// with that one free, against its spread over blocks of time.
+std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit);
+
+/// A fit and what it refers to.
+struct FittedFlight {
+  std::unique_ptr<Theta> theta;
+  FlightFit fit;
+};
+
+struct WatchOptions {
+  std::vector<std::string> watched;  ///< names
+  std::vector<std::string> also;     ///< constants that are free besides those of the vehicle
+  std::function<void(double)> progress;
+};
+
+/// An exact fit of the constants; of watched ones too where the logs contradict them, and of Omega_0 where
+/// thrust does not carry the weight and an offset puts that right: `result` is warned then.
+FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
+                           std::vector<FreeConstant> constants, const WatchOptions& options, Result& result);
+
+}  // namespace ident
