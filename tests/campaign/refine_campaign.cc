@@ -106,6 +106,9 @@ int main(int argc, char** argv) {
   const std::map<std::string, CaseOptions> kinds = {
       {"still", {}},
       {"gusts", {.turbulence = true}},
+      {"gusts-gyro", {.turbulence = true, .by_gyro = true}},
+      {"still-silent", {.silent = true}},
+      {"gusts-silent", {.turbulence = true, .silent = true}},
       {"gusts-drift", {.turbulence = true, .drift = 0.004}},
       {"gusts-filter", {.turbulence = true, .filter = true}},
       {"gusts-shaken", {.turbulence = true, .shaken = 2.0}},
@@ -116,9 +119,12 @@ int main(int argc, char** argv) {
     fmt::print(
         stderr,
         "usage: refine_campaign COUNT KIND FILE [FIRST_SEED [JOBS]]\n\n"
-        "KIND: still, gusts; gusts-drift with an attitude that drifts, gusts-filter with what a "
-        "filter shows; gusts-shaken with an IMU that feels the rotors; still-speeds, gusts-speeds without "
-        "commands\n");
+        "KIND: still, gusts; gusts-gyro with a controller that flies by the gyro of the log; still-silent, "
+        "gusts-silent where nobody states a dead time; gusts-drift with an attitude that drifts, "
+        "gusts-filter "
+        "with what a filter shows; gusts-shaken with an IMU that feels the rotors; still-speeds, "
+        "gusts-speeds "
+        "without commands\n");
     return 2;
   }
   const std::uint64_t first = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;

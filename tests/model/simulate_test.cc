@@ -55,5 +55,19 @@ TEST(Simulate, WithoutNoiseTheLogShowsTheTruth) {
   }
 }
 
+TEST(Simulate, AControllerThatFliesByTheGyroAnswersItsNoise) {
+  SimulationOptions options = quick("steps", 2);
+  const Vehicle vehicle = agile_vehicle();
+  for (const char* noise : {"typical", "none"}) {
+    options.noise = noise_level(noise);
+    options.by_gyro = false;
+    const SimulatedFlight by_truth = simulate_flight(vehicle, options);
+    options.by_gyro = true;
+    const SimulatedFlight by_gyro = simulate_flight(vehicle, options);
+    EXPECT_EQ(by_gyro.log.w_B[0][0], by_truth.log.w_B[0][0]);
+    EXPECT_EQ(by_gyro.log.delta == by_truth.log.delta, noise == std::string("none"));
+  }
+}
+
 }  // namespace
 }  // namespace ident

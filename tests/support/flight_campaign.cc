@@ -93,6 +93,7 @@ void fly(Case& c, double seconds, bool commands) {
   SimulationOptions options;
   options.duration = seconds;
   options.turbulence = c.gusts;
+  options.by_gyro = c.by_gyro;
   options.signals.rotor_speeds = c.rotor_speeds ? 1 : 0;
   c.flights.clear();
   for (std::size_t i = 0; i < c.scenarios.size(); ++i) {
@@ -158,6 +159,8 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   c.rotor_speeds = random.below(4) != 0 || !options.commands;
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
   c.drift.sigma = options.drift, c.filter = options.filter, c.shaken = options.shaken;
+  c.by_gyro = options.by_gyro, c.silent = options.silent;
+  if (c.silent) c.stated.parameters.erase("dead_time");
   c.scenarios = {"mixed", second[static_cast<std::size_t>(random.below(4))]};
   const double share = random.log_uniform(0.07, 0.70);
   fly(c, options.seconds, options.commands);
@@ -176,7 +179,9 @@ std::vector<std::pair<std::string, double>> bounds(const Case& c) {
   const std::vector<double> p = parameter_vector(c.truth);
   const std::vector<FlightLog> logs = c.logs();
   const FlightRecord record = make_flight_record(c.truth, p, logs);
-  std::vector<FreeConstant> constants = free_constants(c.stated, p);
+  std::vector<std::string> found;
+  if (c.silent && c.truth.value("dead_time") > 0) found = {"dead_time"};
+  std::vector<FreeConstant> constants = free_constants(c.stated, p, found);
   if (!record.signals.commands) leave_out_motors(constants);
   const Theta theta(p, constants, record.logs, record.signals.rates);
   FlightSmoother smoother(record, theta, true_noise(c, record), c.gusts > 0 ? 0.02 : 0.25);
@@ -222,7 +227,7 @@ Outcome refine_case(const Case& c) {
                                  .value = p.value,
                                  .std = p.std,
                                  .naive_std = p.naive_std.value_or(p.std),
-                                 .prior_std = c.stated.parameters.at(p.name).std.value_or(0.0),
+                                 .prior_std = p.prior_std.value_or(kNaN),
                                  .bound = b->second,
                                  .inside = p.ci95[0] <= truth && truth <= p.ci95[1],
                                  .inside_naive = error < 1.96 * p.naive_std.value_or(p.std),
@@ -253,10 +258,10 @@ Outcome from_line(const std::string& text) {
             .turn_share = line["turn"],
             .seconds = line["seconds"],
             .failure = line["failure"]};
+  const auto number = [](const nlohmann::json& x) { return x.is_null() ? kNaN : x.get<double>(); };
   for (const auto& e : line["estimates"])
-    o.estimates.push_back({e[0], e[1], e[2].is_null() ? kNaN : e[2].get<double>(),
-                           e[3].is_null() ? kNaN : e[3].get<double>(),
-                           e[4].is_null() ? kNaN : e[4].get<double>(), e[5], e[6], e[7], e[8], e[9]});
+    o.estimates.push_back(
+        {e[0], e[1], number(e[2]), number(e[3]), number(e[4]), number(e[5]), e[6], e[7], e[8], e[9]});
   return o;
 }
 

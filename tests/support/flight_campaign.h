@@ -22,6 +22,8 @@ struct Case {
   ColouredNoise drift{0.0, 6.0};  ///< of the attitude shown, rad
   bool filter = false;
   double shaken = 0.0;  ///< amplitude of each rotor's tone, in units of the accelerometer's noise
+  bool by_gyro = false;
+  bool silent = false;  ///< what is stated has no dead time
   std::vector<SimulatedFlight> flights;
   std::vector<std::string> scenarios;
   /// Standard deviation of what the air does over that of what the rotors do, both without gravity:
@@ -37,6 +39,8 @@ struct CaseOptions {
   bool commands = true;  ///< without, measured rotor speeds are the input
   double drift = 0.0;    ///< standard deviation of a slow error of the attitude shown, rad
   bool filter = false;   ///< attitude, velocity and position as a complementary filter shows them
+  bool silent = false;   ///< nobody states a dead time, half of the vehicles have one
+  bool by_gyro = false;  ///< the controller flies by the rates that the log shows, as an autopilot does
   double shaken = 0.0;   ///< amplitude of a rotor's tone in the IMU, in units of the accelerometer's noise
 };
 

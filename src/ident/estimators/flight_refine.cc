@@ -69,7 +69,9 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       p.identifiable = p.std < 0.5 * *c.prior_std;
     } else {
       p.from_flight = 1.0;
-      p.identifiable = p.std < 0.1 * std::abs(p.value);
+      // What the model always has and may be zero (a dead time) is known by its usual size.
+      const double size = c.positive || c.index >= kEffectOffset[0] ? 0.0 : c.scale;
+      p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), size);
     }
     if (!p.identifiable)
       p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
@@ -115,6 +117,7 @@ void doubt_negative_dead_time(Result& result) {
   for (Parameter& p : result.parameters)
     if ((p.name == "omega_m" || p.name == "zeta_m") && p.identifiable)
       p.identifiable = false, p.note = "goes with a negative dead_time, which no motor has";
+  std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
   result.warn(
       "negative_dead_time",
       "rotors seem to follow commands before these come, and of the motors' lag nothing certain is said: the "

@@ -18,12 +18,14 @@ namespace {
 constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms
 constexpr std::ptrdiff_t kFewBlocks = 8;
 constexpr double kBeyondDoubt = 25.0;  // fall of the cost: five standard deviations
+constexpr double kByChance = 3.0;      // standard deviations
 constexpr double kMatters = 1e-3;      // of the unit step: less is rounding
-const std::string kOffset = "Omega_0", kDeadTime = "dead_time";
+const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kDelay = "motor_delay.tau";
 
-// How often beyond chance, in squared standard deviations, the logs contradict the watched constant `at`.
+// By how much the logs contradict the watched constant `at`, in squared standard deviations.
 double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
-  // What it gains when it is free, over the factor by which coloured residuals spread the scores it leaves.
+  // How far it moves when it is free, over the factor by which coloured residuals spread the scores it
+  // leaves.
   PriorTerms prior = theta.prior(fit.u);
   prior.slope[at] = 0;
   const Eigen::Index n = fit.u.size();
@@ -39,11 +41,12 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
     return VectorXd(s.asDiagonal() * solver.solve(s.asDiagonal() * x));
   };
   const VectorXd direction = solved(VectorXd::Unit(n, at)), step = -solved(g);
-  if (!(std::abs(step[at]) > kMatters)) return 0;
+  if (!(std::abs(step[at]) > kMatters && direction[at] > 0)) return 0;
   double spread = 0;
   for (const ScoreBlock& block : fit.blocks)
     spread += std::pow(direction.dot(block.score + block.information * step), 2);
-  return g.dot(solved(g)) / std::max(spread / direction.dot(F * direction), 1.0);
+  const double stretch = std::max(spread / direction.dot(F * direction), 1.0);
+  return step[at] * step[at] / (direction[at] * stretch);
 }
 
 // The unknowns of one fit as those of another with the same logs; constants that are new there stand at 0.
@@ -57,17 +60,33 @@ VectorXd carried(const FittedFlight& one, const Theta& to) {
   return u;
 }
 
-void warn(Result& result, const std::string& name) {
-  if (name == kOffset)
+bool is_in(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+bool watches(const FittedFlight& flight, const std::string& name) {
+  return std::ranges::any_of(flight.theta->constants(),
+                             [&](const FreeConstant& c) { return c.watched && c.name == name; });
+}
+
+bool may_be_nothing(const FittedFlight& flight, const std::string& name) {
+  const auto& all = flight.theta->constants();
+  const auto i = static_cast<int>(std::ranges::find(all, name, &FreeConstant::name) - all.begin());
+  const double change = flight.theta->physical(flight.fit.u, i) - all[static_cast<std::size_t>(i)].start;
+  return std::abs(change) < kByChance * flight.theta->deviation(flight.fit.u, i, flight.fit.covariance);
+}
+
+void warn_of(const std::vector<std::string>& found, Result& result) {
+  if (is_in(found, kOffset))
     result.warn("command_offset",
                 "the rotors' speed is not proportional to the command, or the mass or kT as stated is wrong: "
-                "Omega_0, "
-                "their speed at command 0 as the line through the flown commands gives it, is estimated too");
-  else
-    result.warn(
-        "dead_time",
-        "the rotors do not follow their commands as motors without a dead time would, and the vehicle "
-        "file states none: dead_time is estimated too");
+                "Omega_0, their speed at command 0 as the line through the flown commands gives it, is "
+                "estimated too");
+  if (is_in(found, kDeadTime))
+    result.warn("dead_time",
+                "rotors follow their commands later or earlier than motors without a dead time would, and "
+                "none is stated: dead_time is estimated too, with whatever commands and sensors are apart in "
+                "time");
 }
 
 }  // namespace
@@ -75,24 +94,27 @@ void warn(Result& result, const std::string& name) {
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p) {
   if (!record.signals.commands) return;
+  const auto is_stated = [&](const std::string& name) {
+    return vehicle.has(name) || std::ranges::find(constants, name, &FreeConstant::name) != constants.end();
+  };
   for (const std::string& name : names) {
-    const auto is_it = [&](const FreeConstant& c) { return c.name == name; };
-    if (vehicle.has(name) || std::ranges::any_of(constants, is_it)) continue;
+    if (is_stated(name) || (name == kDeadTime && is_stated(kDelay))) continue;  // a delay is a dead time
     const std::vector<FreeConstant> all = free_constants(vehicle, p, {name});
-    FreeConstant held = *std::ranges::find_if(all, is_it);
+    FreeConstant held = *std::ranges::find(all, name, &FreeConstant::name);
     held.watched = true;
     held.prior_value = held.start, held.prior_std = kHeld * held.scale;
     constants.push_back(held);
   }
 }
 
-std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit) {
+std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
+                                        const std::vector<std::string>& names) {
   if (std::ssize(fit.blocks) < kFewBlocks) return {};
   std::optional<std::string> found;
   double most = kBeyondDoubt;
   for (Eigen::Index at = 0; at < theta.constants_count(); ++at) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(at)];
-    if (!c.watched) continue;
+    if (!c.watched || !is_in(names, c.name)) continue;
     const double beyond = contradiction(theta, fit, at);
     if (beyond > most) most = beyond, found = c.name;
   }
@@ -104,40 +126,65 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
   FlightFitOptions fit_options;
   fit_options.progress = options.progress;
   fit_options.steps = Steps::longest;  // on the way to its exact end
+  std::vector<std::string> watched = options.watched, found;
   const auto theta_of = [&](std::vector<FreeConstant> of) {
+    watch(watched, of, vehicle, record, p);
     return std::make_unique<Theta>(p, std::move(of), record.logs, record.signals.rates);
   };
-  watch(options.watched, constants, vehicle, record, p);
   FittedFlight one{theta_of(std::move(constants)), {}};
   one.fit = fit_flight(record, *one.theta, fit_options);
-  std::vector<std::string> also = options.also;
-  while (const auto name = contradicted(*one.theta, one.fit)) {
-    also.push_back(*name);
-    warn(result, *name);
-    std::vector<FreeConstant> more = free_constants(vehicle, p, also);
-    watch(options.watched, more, vehicle, record, p);
-    FittedFlight other{theta_of(std::move(more)), {}};
-    fit_options.start = carried(one, *other.theta), fit_options.noise = one.fit.noise;
-    fit_options.noise->axes = GustAxes::world;
-    other.fit = fit_flight(record, *other.theta, fit_options);
-    one = std::move(other);
+  const auto refitted = [&](const std::vector<std::string>& with,
+                            bool from_here) -> std::optional<FittedFlight> {
+    std::vector<std::string> also = options.also;
+    also.insert(also.end(), with.begin(), with.end());
+    FittedFlight other{theta_of(free_constants(vehicle, p, also)), {}};
+    fit_options.start = {}, fit_options.noise.reset();
+    if (from_here) {
+      fit_options.start = carried(one, *other.theta), fit_options.noise = one.fit.noise;
+      fit_options.noise->axes = GustAxes::world;
+    }
+    try {
+      other.fit = fit_flight(record, *other.theta, fit_options);
+    } catch (const DataError&) {  // nothing flies with it
+      return {};
+    }
+    return other;
+  };
+  for (;;) {
+    if (const auto name = contradicted(*one.theta, one.fit, watched)) {
+      std::vector<std::string> more = found;
+      more.push_back(*name);
+      if (auto other = refitted(more, true)) {
+        one = std::move(*other), found = std::move(more);
+        continue;
+      }
+      std::erase(watched, *name);
+      result.warn("contradicted", "the logs contradict " + *name +
+                                      " as it is where nobody states it, but nothing flies with another one: "
+                                      "of the motors nothing certain is said");
+    } else if (is_in(watched, kOffset) && watches(one, kOffset) &&
+               steady_push(record, one.fit).matters(vehicle.g)) {
+      // What stays for the whole flight passes for a gust once noise is that strong: anew, for that noise
+      // would hide the offset again, and may be behind what was found beside it.
+      auto other = refitted({kOffset}, false);
+      if (other && other->fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt &&
+          !steady_push(record, other->fit).matters(vehicle.g))
+        one = std::move(*other), found = {kOffset};
+      else
+        std::erase(watched, kOffset);
+    } else {
+      break;
+    }
   }
-  const auto is_watched = [](const FreeConstant& c) { return c.watched && c.name == kOffset; };
-  if (std::ranges::none_of(one.theta->constants(), is_watched)) return one;
-  // What stays for the whole flight passes for a gust once noise is that strong.
-  if (!steady_push(record, one.fit).matters(vehicle.g)) return one;
-  also.push_back(kOffset);
-  FittedFlight other{theta_of(free_constants(vehicle, p, also)), {}};
-  fit_options.start = {}, fit_options.noise.reset();  // anew: that noise would hide it again
-  try {
-    other.fit = fit_flight(record, *other.theta, fit_options);
-  } catch (const DataError&) {  // nothing flies with it
-    return one;
+  // What was found while something else was still missing.
+  for (const std::string& name : std::vector<std::string>(found)) {
+    if (found.size() < 2 || !may_be_nothing(one, name)) continue;
+    std::vector<std::string> less = found;
+    std::erase(less, name), std::erase(watched, name);
+    if (auto other = refitted(less, true)) one = std::move(*other), found = std::move(less);
   }
-  const bool likelier = other.fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt;
-  if (!likelier || steady_push(record, other.fit).matters(vehicle.g)) return one;
-  warn(result, kOffset);
-  return other;
+  warn_of(found, result);
+  return one;
 }
 
 }  // namespace ident

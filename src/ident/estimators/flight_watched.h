@@ -13,13 +13,15 @@
 namespace ident {
 
 /// Adds those of `names` (Omega_0, dead_time) to the constants of a fit, held where they are and watched:
-/// what the flight says against that comes with the fit. Not one that the vehicle states or that is free.
+/// what the flight says against that comes with the fit. Not one that the vehicle states or that is free, nor
+/// a dead time beside a motor_delay.
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p);
 
-/// The watched constant that the logs contradict most, if any beyond doubt: one Newton step from the fit
-/// with that one free, against its spread over blocks of time.
-std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit);
+/// That of `names` among the watched constants which the logs contradict most, if any beyond doubt: one
+/// Newton step from the fit with that one free, against its spread over blocks of time.
+std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
+                                        const std::vector<std::string>& names);
 
 /// A fit and what it refers to.
 struct FittedFlight {

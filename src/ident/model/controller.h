@@ -2,8 +2,8 @@
 //
 // A reference (position and its derivatives, heading) gives attitude, rates and rotor speeds that would
 // follow it without lag; the deviations from those go through the regulator's gain; what the rotors cannot
-// give is shed in the order yaw, lift, roll and pitch. It knows the true state: what flies matters here, not
-// how an estimator would help it.
+// give is shed in the order yaw, lift, roll and pitch. It knows the state it is given, the true one or
+// nearly: what flies matters here, not how an estimator would help it.
 #pragma once
 
 #include <deque>

@@ -35,11 +35,21 @@ void Recorder::add_attitude(const Vec4<double>& q_WB) {
   for (std::size_t k = 0; k < 4; ++k) log_.q_WB[k].push_back(sampled ? q[static_cast<int>(k)] : kNaN);
 }
 
-void Recorder::row(std::span<const double> delta, double voltage_ratio) {
+void Recorder::command(std::span<const double> delta) {
+  for (std::size_t n = 0; n < log_.delta.size(); ++n) log_.delta[n].push_back(delta[n]);
+}
+
+Vec3<double> Recorder::rates() const {
+  Vec3<double> shown;
+  for (std::size_t k = 0; k < 3; ++k)
+    shown[static_cast<int>(k)] = log_.w_B[k].empty() ? kNaN : log_.w_B[k].back();
+  return shown.allFinite() ? Vec3<double>(shown - gyro_bias_) : plant_->state().body.w_B;
+}
+
+void Recorder::row(double voltage_ratio) {
   const FlightState<double>& x = plant_->state();
   const Motion motion = seen_motion_.front();
   seen_motion_.pop_front();
-  for (std::size_t n = 0; n < log_.delta.size(); ++n) log_.delta[n].push_back(delta[n]);
   for (std::size_t n = 0; n < log_.Omega.size(); ++n)
     log_.Omega[n].push_back(
         seen(signals_.rotor_speeds, x.motors[n].Omega, noise_.rotor_speed * hover_speed_));

@@ -19,10 +19,14 @@ class Recorder {
 
   /// Keeps rates and attitude of this instant for the next row that has none yet (sensor delay).
   void look();
-  /// The row at the plant's present time, with the command that holds from here.
-  void row(std::span<const double> delta, double voltage_ratio);
+  /// What sensors show at the plant's present time.
+  void row(double voltage_ratio);
+  /// The command that holds from that row on.
+  void command(std::span<const double> delta);
 
   const Vec3<double>& gyro_bias() const { return gyro_bias_; }
+  /// Rates of the last row without their bias; the true ones where it has none.
+  Vec3<double> rates() const;
   FlightLog take() { return std::move(log_); }
 
  private:

@@ -113,10 +113,13 @@ class FlightLoop {
   void write_row(double interval) {
     const double t = plant_.t();
     const Setpoint to = scenario_.setpoint(t);
-    std::vector<double> delta = controller_.command(plant_.state(), to, interval);
+    recorder_.row(voltage_ratio_);
+    FlightState<double> known = plant_.state();
+    if (options_.by_gyro) known.body.w_B = recorder_.rates();
+    std::vector<double> delta = controller_.command(known, to, interval);
     scenario_.excite(t, delta);
     quantise(delta, plant_.vehicle().command, options_.noise.pulse_us);
-    recorder_.row(delta, voltage_ratio_);
+    recorder_.command(delta);
     result_.truth.push_back(plant_.state());
     result_.furthest = std::max(result_.furthest, (to.x_W - plant_.state().body.x_W).norm());
     plant_.command(t, delta);
