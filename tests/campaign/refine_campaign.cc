@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
       {"gusts", {.turbulence = true}},
       {"gusts-gyro", {.turbulence = true, .by_gyro = true}},
       {"still-silent", {.silent = true}},
-      {"gusts-silent", {.turbulence = true, .silent = true}},
+      {"gusts-silent", {.turbulence = true, .silent = true, .by_gyro = true}},
       {"gusts-drift", {.turbulence = true, .drift = 0.004}},
       {"gusts-filter", {.turbulence = true, .filter = true}},
       {"gusts-shaken", {.turbulence = true, .shaken = 2.0}},

@@ -56,6 +56,18 @@ TEST(Watched, DeadTimeThatIsNotStatedIsEstimatedWhereTheFlightShowsOne) {
   }
 }
 
+TEST(Watched, TenSecondsAreEnough) {
+  for (const double dead_time : {0.0, 0.006}) {
+    const Vehicle truth = quad(dead_time);
+    const FlightLog log = flight(truth, 250, 1, 10);
+    const Result result = refine_flight(silent(truth), std::span(&log, 1), {.validate = false});
+    EXPECT_EQ(result.has_warning("dead_time"), dead_time > 0);
+    EXPECT_FALSE(result.has_warning("command_offset"));
+    if (dead_time > 0) expect_known(result, truth, "dead_time", 0.05);
+    expect_known(result, truth, "omega_m", 0.02);
+  }
+}
+
 TEST(Watched, BothAtOnceInTwoLogs) {
   Vehicle truth = quad(0.006);
   truth.parameters["Omega_0"] = {150, {}};

@@ -15,11 +15,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms
-constexpr std::ptrdiff_t kFewBlocks = 8;
-constexpr double kBeyondDoubt = 25.0;  // fall of the cost: five standard deviations
-constexpr double kByChance = 3.0;      // standard deviations
-constexpr double kMatters = 1e-3;      // of the unit step: less is rounding
+constexpr double kHeld = 1e-6;            // of the unit step: a tenth of the speed at hover, 5 ms
+constexpr std::ptrdiff_t kFewBlocks = 8;  // do not tell by how much coloured residuals spread scores;
+constexpr double kUntold = 4.0;           // they count as that much then
+constexpr double kBeyondDoubt = 25.0;     // fall of the cost: five standard deviations
+constexpr double kByChance = 3.0;         // standard deviations
+constexpr double kMatters = 1e-3;         // of the unit step: less is rounding
 const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kDelay = "motor_delay.tau";
 
 // By how much the logs contradict the watched constant `at`, in squared standard deviations.
@@ -45,7 +46,8 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
   double spread = 0;
   for (const ScoreBlock& block : fit.blocks)
     spread += std::pow(direction.dot(block.score + block.information * step), 2);
-  const double stretch = std::max(spread / direction.dot(F * direction), 1.0);
+  const bool few = std::ssize(fit.blocks) < kFewBlocks;
+  const double stretch = few ? kUntold : std::max(spread / direction.dot(F * direction), 1.0);
   return step[at] * step[at] / (direction[at] * stretch);
 }
 
@@ -109,7 +111,6 @@ void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& con
 
 std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
                                         const std::vector<std::string>& names) {
-  if (std::ssize(fit.blocks) < kFewBlocks) return {};
   std::optional<std::string> found;
   double most = kBeyondDoubt;
   for (Eigen::Index at = 0; at < theta.constants_count(); ++at) {
