@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "ident/estimators/flight_refine.h"
 #include "support/known_quad.h"
@@ -65,6 +66,27 @@ TEST(SteadyPush, ThrustThatDoesNotCarryTheWeightIsNamed) {
     if (factor == 1.0) continue;
     const std::string by = factor < 1 ? "15 % less" : "12 % more";
     EXPECT_NE(w->message.find(by), std::string::npos) << w->message;
+  }
+}
+
+// A full battery and an empty one: in the mean of both thrust is right.
+TEST(SteadyPush, LogsOfDifferentThrustAreNamed) {
+  const Vehicle truth = quad();
+  for (const double apart : {0.0, 0.04}) {
+    std::vector<FlightLog> logs;
+    for (const int i : {0, 1}) {
+      Vehicle flown = truth;
+      flown.parameters["kT"].value *= 1 + (i == 0 ? apart : -apart);
+      logs.push_back(flight(flown, 250, 2 + static_cast<std::uint64_t>(i)));
+      logs.back().file = i == 0 ? "full.csv" : "empty.csv";
+    }
+    const Result result = refine_flight(known(truth), logs, kNumbers);
+    const auto w = std::ranges::find(result.warnings, "thrust_level", &Warning::code);
+    ASSERT_EQ(w != result.warnings.end(), apart > 0) << apart;
+    EXPECT_EQ(result.find("kT")->identifiable, apart == 0);
+    if (apart > 0) {
+      EXPECT_NE(w->message.find(".csv"), std::string::npos) << w->message;
+    }
   }
 }
 

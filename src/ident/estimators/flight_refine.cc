@@ -233,7 +233,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
   const SteadyPush push = steady_push(record, fit);
-  warn_of_steady_push(result, push, vehicle.g);
+  warn_of_steady_push(result, push, logs, vehicle.g);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);

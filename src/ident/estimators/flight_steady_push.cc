@@ -19,14 +19,18 @@ constexpr double kSlowestGust = 1.5;  // s
 
 }  // namespace
 
-bool SteadyPush::matters(double gravity) const {
-  return std::abs(mean) > std::max(kMatters * gravity, std::min(kBeyondChance * std, kNoGust * gravity));
+double SteadyPush::limit(double gravity) const {
+  return std::max(kMatters * gravity, std::min(kBeyondChance * std, kNoGust * gravity));
 }
 
 SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit) {
   if (record.layout.v_dot < 0) return {};
   const FlightSmoother& smoother = *fit.smoother;
-  double sum = 0, seconds = 0, variance = 0;
+  struct Sums {
+    double push = 0, seconds = 0, variance = 0;
+  };
+  std::vector<Sums> of_log(static_cast<std::size_t>(record.logs));
+  Sums all;
   for (std::size_t k = 0; k < smoother.chunks().size(); ++k) {
     const ChunkPlace& place = smoother.chunks()[k];
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
@@ -35,22 +39,39 @@ SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit) {
     const Eigen::Vector3d& push = x.outside.v_dot;
     // What drags a vehicle that leans has no part in it. Without attitude the body is taken as level.
     const bool turned = record.layout.attitude >= 0 && x.outside.axes == GustAxes::body;
-    sum += h * (turned ? rotation(x.body.q_WB).row(2).dot(push) : push[2]);
+    const double down = turned ? rotation(x.body.q_WB).row(2).dot(push) : push[2];
     const ColouredNoise& gust = fit.noise.in_log(arc.log).v_dot[2];
-    seconds += h, variance += h * 2 * gust.sigma * gust.sigma * std::min(gust.tau, kSlowestGust);
+    for (Sums* sums : {&all, &of_log[static_cast<std::size_t>(arc.log)]}) {
+      sums->push += h * down, sums->seconds += h;
+      sums->variance += h * 2 * gust.sigma * gust.sigma * std::min(gust.tau, kSlowestGust);
+    }
   }
-  return {sum / seconds, std::sqrt(variance) / seconds};
+  const auto mean = [](const Sums& sums, std::optional<int> log) {
+    return SteadyPush{sums.push / sums.seconds, std::sqrt(sums.variance) / sums.seconds, log};
+  };
+  const double g = record.vehicle->g;
+  SteadyPush most = mean(all, {});
+  for (int log = 0; log < record.logs && record.logs > 1; ++log) {
+    const Sums& sums = of_log[static_cast<std::size_t>(log)];
+    if (!(sums.seconds > 0)) continue;
+    const SteadyPush one = mean(sums, log);
+    if (std::abs(one.mean) / one.limit(g) > std::abs(most.mean) / most.limit(g)) most = one;
+  }
+  return most;
 }
 
-void warn_of_steady_push(Result& result, const SteadyPush& push, double gravity) {
+void warn_of_steady_push(Result& result, const SteadyPush& push, std::span<const FlightLog> logs,
+                         double gravity) {
   if (!push.matters(gravity)) return;
+  const std::string where =
+      push.log ? "of " + logs[static_cast<std::size_t>(*push.log)].file : std::string("of these logs");
   result.warn(
       "thrust_level",
       fmt::format(
-          "in the mean of these logs the rotors as fitted lift {:.0f} % {} than the vehicle felt, and no "
-          "gust lasts as long: thrust does not go with the square of the command's speed (another curve, a "
-          "battery that sags), a stated constant is wrong, or the model lacks an effect (try ident gap)",
-          100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
+          "in the mean {} the rotors as fitted lift {:.0f} % {} than the vehicle felt, and no gust lasts as "
+          "long: thrust does not go with the square of the command's speed (another curve, a battery that "
+          "sags), a stated constant is wrong, or the model lacks an effect (try ident gap)",
+          where, 100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
   static constexpr std::array<std::string_view, 12> kByThrust = {
       "m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"};
   for (Parameter& p : result.parameters)
