@@ -19,7 +19,7 @@ constexpr double kHeld = 1e-6;            // of the unit step: a tenth of the sp
 constexpr std::ptrdiff_t kFewBlocks = 8;  // do not tell by how much coloured residuals spread scores;
 constexpr double kUntold = 4.0;           // they count as that much then
 constexpr double kBeyondDoubt = 25.0;     // fall of the cost: five standard deviations
-constexpr double kByChance = 3.0;         // standard deviations
+constexpr double kByChance = 2.0;         // standard deviations
 constexpr double kMatters = 1e-3;         // of the unit step: less is rounding
 const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kDelay = "motor_delay.tau";
 
