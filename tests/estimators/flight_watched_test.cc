@@ -24,7 +24,7 @@ Result refined(const Vehicle& truth, const Vehicle& stated,
 
 Vehicle silent(const Vehicle& truth) {
   Vehicle stated = known(truth);
-  stated.parameters.erase("dead_time"), stated.parameters.erase("Omega_0");
+  for (const char* name : {"dead_time", "Omega_0", "Jp"}) stated.parameters.erase(name);
   return stated;
 }
 
@@ -38,10 +38,35 @@ void expect_known(const Result& result, const Vehicle& truth, const char* name, 
 }
 
 TEST(Watched, NothingIsEstimatedThatNothingContradicts) {
+  Vehicle truth = quad(0.0);
+  truth.parameters["Jp"].value = 0;
+  const Result result = refined(truth, silent(truth));
+  for (const char* name : {"dead_time", "Omega_0", "Jp"}) EXPECT_EQ(result.find(name), nullptr) << name;
+  for (const char* code : {"dead_time", "command_offset", "rotor_inertia"})
+    EXPECT_FALSE(result.has_warning(code)) << code;
+}
+
+// Held at zero it makes Jzz half of what it is, with a tenth of that as deviation.
+TEST(Watched, RotorInertiaThatIsNotStatedIsEstimated) {
   const Vehicle truth = quad(0.0);
   const Result result = refined(truth, silent(truth));
-  for (const char* name : {"dead_time", "Omega_0"}) EXPECT_EQ(result.find(name), nullptr) << name;
-  for (const char* code : {"dead_time", "command_offset"}) EXPECT_FALSE(result.has_warning(code)) << code;
+  EXPECT_TRUE(result.has_warning("rotor_inertia"));
+  EXPECT_FALSE(result.has_warning("dead_time"));
+  for (const char* name : {"Jp", "Jzz", "kQ"}) expect_known(result, truth, name, 0.05);
+}
+
+// A vehicle whose rotors' momentum has the other sign than the model's.
+TEST(Watched, NegativeRotorInertiaMakesNothingCertainOfYaw) {
+  Vehicle truth = quad(0.0);
+  truth.signs = Signs::as_published, truth.parameters["Jp"].value = 3e-7;  // which it can fly with
+  Vehicle stated = silent(truth);
+  const Result as_flown = refined(truth, stated);
+  expect_known(as_flown, truth, "Jp", 0.05);
+  stated.signs = Signs::first_principles;
+  const Result result = refined(truth, stated);
+  EXPECT_TRUE(result.has_warning("negative_rotor_inertia"));
+  EXPECT_FALSE(result.has_warning("rotor_inertia"));
+  for (const char* name : {"Jp", "Jzz", "kQ"}) EXPECT_FALSE(result.find(name)->identifiable) << name;
 }
 
 // Held at zero it makes omega_m a tenth less than it is, with a hundredth of that as deviation.

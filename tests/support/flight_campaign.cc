@@ -160,7 +160,7 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
   c.drift.sigma = options.drift, c.filter = options.filter, c.shaken = options.shaken;
   c.by_gyro = options.by_gyro, c.silent = options.silent;
-  if (c.silent) c.stated.parameters.erase("dead_time");
+  if (c.silent) c.stated.parameters.erase("dead_time"), c.stated.parameters.erase("Jp");
   c.scenarios = {"mixed", second[static_cast<std::size_t>(random.below(4))]};
   const double share = random.log_uniform(0.07, 0.70);
   fly(c, options.seconds, options.commands);
@@ -180,7 +180,8 @@ std::vector<std::pair<std::string, double>> bounds(const Case& c) {
   const std::vector<FlightLog> logs = c.logs();
   const FlightRecord record = make_flight_record(c.truth, p, logs);
   std::vector<std::string> found;
-  if (c.silent && c.truth.value("dead_time") > 0) found = {"dead_time"};
+  if (c.silent) found = {"Jp"};
+  if (c.silent && c.truth.value("dead_time") > 0) found.emplace_back("dead_time");
   std::vector<FreeConstant> constants = free_constants(c.stated, p, found);
   if (!record.signals.commands) leave_out_motors(constants);
   const Theta theta(p, constants, record.logs, record.signals.rates);

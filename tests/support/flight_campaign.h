@@ -23,7 +23,7 @@ struct Case {
   bool filter = false;
   double shaken = 0.0;  ///< amplitude of each rotor's tone, in units of the accelerometer's noise
   bool by_gyro = false;
-  bool silent = false;  ///< what is stated has no dead time
+  bool silent = false;  ///< neither a dead time nor Jp is stated
   std::vector<SimulatedFlight> flights;
   std::vector<std::string> scenarios;
   /// Standard deviation of what the air does over that of what the rotors do, both without gravity:
@@ -39,7 +39,7 @@ struct CaseOptions {
   bool commands = true;  ///< without, measured rotor speeds are the input
   double drift = 0.0;    ///< standard deviation of a slow error of the attitude shown, rad
   bool filter = false;   ///< attitude, velocity and position as a complementary filter shows them
-  bool silent = false;   ///< nobody states a dead time, half of the vehicles have one
+  bool silent = false;   ///< nobody states Jp, nor a dead time, which half of the vehicles have
   bool by_gyro = false;  ///< the controller flies by the rates that the log shows, as an autopilot does
   double shaken = 0.0;   ///< amplitude of a rotor's tone in the IMU, in units of the accelerometer's noise
 };

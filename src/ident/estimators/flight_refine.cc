@@ -11,6 +11,7 @@
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
+#include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_inertia.h"
 #include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_logs_agree.h"
@@ -106,25 +107,6 @@ std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
   return out;
 }
 
-bool is_before_its_command(const Parameter& p) { return p.name == "dead_time" && p.value + 2 * p.std < 0; }
-
-void doubt_negative_dead_time(Result& result) {
-  const auto early = std::ranges::find_if(result.parameters, is_before_its_command);
-  if (early == result.parameters.end()) return;
-  early->identifiable = false;
-  early->note = "negative: no motor turns before its command";
-  // What is early makes up for what else is late: motors that are too slow go with it.
-  for (Parameter& p : result.parameters)
-    if ((p.name == "omega_m" || p.name == "zeta_m") && p.identifiable)
-      p.identifiable = false, p.note = "goes with a negative dead_time, which no motor has";
-  std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
-  result.warn(
-      "negative_dead_time",
-      "rotors seem to follow commands before these come, and of the motors' lag nothing certain is said: the "
-      "clocks of commands and sensors differ, the log shows commands in coarser steps than they were flown "
-      "in, or the model lacks something (try ident gap)");
-}
-
 bool disagrees(const Parameter& p) {
   const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
   return p.pull && heard && std::abs(*p.pull) > 3;
@@ -217,7 +199,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   std::vector<std::string> held;
   if (is_hover(tested)) held = hold_for_hover(constants);
   std::vector<std::string> watched;
-  if (held.empty()) watched = {"Omega_0"};
+  if (held.empty()) watched = {"Omega_0", "Jp"};
   if (held.empty() && !filter_lag_is_open(result, record.signals)) watched.emplace_back("dead_time");
   auto [free, fit] =
       fit_and_watch(vehicle, p, record, constants,
@@ -234,6 +216,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     result.warnings.push_back(w), tested.push_back(w);
   const SteadyPush push = steady_push(record, fit);
   warn_of_steady_push(result, push, logs, vehicle.g);
+  if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);

@@ -39,13 +39,6 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
 std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
                                       const std::vector<Parameter>& parameters);
 
-/// A dead time that is negative beyond chance, which no motor has.
-bool is_before_its_command(const Parameter& p);
-
-/// Warns (`negative_dead_time`) of such a one, which counts as not identifiable, nor does the rest of the
-/// motors' lag.
-void doubt_negative_dead_time(Result& result);
-
 /// Whether flight says another value than was given beforehand, by more than 3 standard deviations.
 bool disagrees(const Parameter& p);
 

@@ -1,4 +1,4 @@
-// Omega_0 and dead_time beside the constants of a fit.
+// Omega_0, dead_time and Jp beside the constants of a fit.
 #include "ident/estimators/flight_watched.h"
 
 #include <Eigen/Cholesky>
@@ -15,13 +15,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kHeld = 1e-6;            // of the unit step: a tenth of the speed at hover, 5 ms
+constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
 constexpr std::ptrdiff_t kFewBlocks = 8;  // do not tell by how much coloured residuals spread scores;
 constexpr double kUntold = 4.0;           // they count as that much then
-constexpr double kBeyondDoubt = 25.0;     // fall of the cost: five standard deviations
+constexpr double kBeyondDoubt = 16.0;     // squared standard deviations, or fall of the cost
 constexpr double kByChance = 2.0;         // standard deviations
 constexpr double kMatters = 1e-3;         // of the unit step: less is rounding
-const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kDelay = "motor_delay.tau";
+const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kRotor = "Jp";
+// Effects that are the same.
+const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
 
 // By how much the logs contradict the watched constant `at`, in squared standard deviations.
 double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
@@ -89,18 +91,23 @@ void warn_of(const std::vector<std::string>& found, Result& result) {
                 "rotors follow their commands later or earlier than motors without a dead time would, and "
                 "none is stated: dead_time is estimated too, with whatever commands and sensors are apart in "
                 "time");
+  if (is_in(found, kRotor))
+    result.warn("rotor_inertia",
+                "rotors that speed up turn the vehicle as they would with inertia, and none is stated: Jp is "
+                "estimated too, on which Jzz and kQ depend");
 }
 
 }  // namespace
 
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p) {
-  if (!record.signals.commands) return;
   const auto is_stated = [&](const std::string& name) {
     return vehicle.has(name) || std::ranges::find(constants, name, &FreeConstant::name) != constants.end();
   };
   for (const std::string& name : names) {
-    if (is_stated(name) || (name == kDeadTime && is_stated(kDelay))) continue;  // a delay is a dead time
+    if (is_stated(name) || (name == kDeadTime && is_stated(kDelay)) ||
+        (name == kRotor && is_stated(kMomentum)) || (name != kRotor && !record.signals.commands))
+      continue;
     const std::vector<FreeConstant> all = free_constants(vehicle, p, {name});
     FreeConstant held = *std::ranges::find(all, name, &FreeConstant::name);
     held.watched = true;

@@ -1,6 +1,6 @@
 // Constants that a vehicle file need not state, and that a flight may contradict: whether rotor speed is
 // proportional to the command (brushed motors and many speed controllers have an offset), and follows it
-// without a dead time.
+// without a dead time; whether rotors have inertia.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@
 
 namespace ident {
 
-/// Adds those of `names` (Omega_0, dead_time) to the constants of a fit, held where they are and watched:
+/// Adds those of `names` (Omega_0, dead_time, Jp) to the constants of a fit, held where they are and watched:
 /// what the flight says against that comes with the fit. Not one that the vehicle states or that is free, nor
-/// a dead time beside a motor_delay.
+/// one that is there as an effect.
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p);
 

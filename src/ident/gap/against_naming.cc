@@ -8,6 +8,7 @@
 #include <functional>
 #include <initializer_list>
 
+#include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/gap/further.h"
 #include "ident/gap/impossible_size.h"

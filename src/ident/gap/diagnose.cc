@@ -13,6 +13,7 @@
 #include "ident/core/nearest_word.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
+#include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_inertia.h"
 #include "ident/estimators/flight_input_doubt.h"
 #include "ident/estimators/flight_logs_agree.h"

@@ -1,0 +1,39 @@
+// What is negative beyond chance makes up for something else, and nothing that goes with it is known.
+#include "ident/estimators/flight_impossible.h"
+
+#include <algorithm>
+
+namespace ident {
+
+bool is_before_its_command(const Parameter& p) { return p.name == "dead_time" && p.value + 2 * p.std < 0; }
+
+void doubt_negative_dead_time(Result& result) {
+  const auto early = std::ranges::find_if(result.parameters, is_before_its_command);
+  if (early == result.parameters.end()) return;
+  early->identifiable = false;
+  early->note = "negative: no motor turns before its command";
+  // What is early makes up for what else is late: motors that are too slow go with it.
+  for (Parameter& p : result.parameters)
+    if ((p.name == "omega_m" || p.name == "zeta_m") && p.identifiable)
+      p.identifiable = false, p.note = "goes with a negative dead_time, which no motor has";
+  std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
+  result.warn(
+      "negative_dead_time",
+      "rotors seem to follow commands before these come, and of the motors' lag nothing certain is said: the "
+      "clocks of commands and sensors differ, the log shows commands in coarser steps than they were flown "
+      "in, or the model lacks something (try ident gap)");
+}
+
+void doubt_negative_rotor_inertia(Result& result) {
+  const Parameter* Jp = result.find("Jp");
+  if (!Jp || !(Jp->value + 2 * Jp->std < 0)) return;
+  for (Parameter& p : result.parameters)
+    if ((p.name == "Jp" || p.name == "Jzz" || p.name == "kQ") && p.identifiable)
+      p.identifiable = false, p.note = "goes with a negative Jp, which no rotor has";
+  std::erase_if(result.warnings, [](const Warning& w) { return w.code == "rotor_inertia"; });  // says less
+  result.warn("negative_rotor_inertia",
+              "the vehicle turns with the rotors that speed up, not against them, and of yaw nothing certain "
+              "is said: a rotor's direction is stated wrong, or the model lacks something (try ident gap)");
+}
+
+}  // namespace ident

@@ -1,0 +1,19 @@
+// Estimates that no vehicle has.
+#pragma once
+
+#include "ident/core/result.h"
+
+namespace ident {
+
+/// A dead time that is negative beyond chance, which no motor has.
+bool is_before_its_command(const Parameter& p);
+
+/// Warns (`negative_dead_time`) of such a one, which counts as not identifiable, nor does the rest of the
+/// motors' lag.
+void doubt_negative_dead_time(Result& result);
+
+/// Warns (`negative_rotor_inertia`) of a Jp that is negative beyond chance: neither that nor Jzz and kQ count
+/// as identifiable. Not for a vehicle whose file has the sign of the rotors' momentum as published.
+void doubt_negative_rotor_inertia(Result& result);
+
+}  // namespace ident
