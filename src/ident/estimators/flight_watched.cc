@@ -16,11 +16,12 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
-constexpr std::ptrdiff_t kFewBlocks = 8;  // do not tell by how much coloured residuals spread scores;
-constexpr double kUntold = 4.0;           // they count as that much then
-constexpr double kBeyondDoubt = 16.0;     // squared standard deviations, or fall of the cost
-constexpr double kByChance = 2.0;         // standard deviations
-constexpr double kMatters = 1e-3;         // of the unit step: less is rounding
+constexpr std::ptrdiff_t kFewBlocks = 8;    // do not tell by how much coloured residuals spread scores;
+constexpr double kUntold = 4.0;             // they count as that much then
+constexpr double kBeyondDoubt = 25.0;       // squared standard deviations, or fall of the cost
+constexpr double kBeyondDoubtOfYaw = 16.0;  // no gust that a controller answers unseen passes for Jp
+constexpr double kByChance = 2.0;           // standard deviations
+constexpr double kMatters = 1e-3;           // of the unit step: less is rounding
 const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kRotor = "Jp";
 // Effects that are the same.
 const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
@@ -117,9 +118,9 @@ void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& con
 }
 
 std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
-                                        const std::vector<std::string>& names) {
+                                        const std::vector<std::string>& names, double beyond_doubt) {
   std::optional<std::string> found;
-  double most = kBeyondDoubt;
+  double most = beyond_doubt;
   for (Eigen::Index at = 0; at < theta.constants_count(); ++at) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(at)];
     if (!c.watched || !is_in(names, c.name)) continue;
@@ -158,18 +159,26 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
     }
     return other;
   };
+  const auto free = [&](const std::string& name) {
+    std::vector<std::string> more = found;
+    more.push_back(name);
+    if (auto other = refitted(more, true)) {
+      one = std::move(*other), found = std::move(more);
+      return;
+    }
+    std::erase(watched, name);
+    result.warn("contradicted", "the logs contradict " + name +
+                                    " as it is where nobody states it, but nothing flies with another one: "
+                                    "of the motors nothing certain is said");
+  };
+  const auto against = [&](bool of_yaw) {
+    std::vector<std::string> names = watched;
+    std::erase_if(names, [&](const std::string& name) { return (name == kRotor) != of_yaw; });
+    return contradicted(*one.theta, one.fit, names, of_yaw ? kBeyondDoubtOfYaw : kBeyondDoubt);
+  };
   for (;;) {
-    if (const auto name = contradicted(*one.theta, one.fit, watched)) {
-      std::vector<std::string> more = found;
-      more.push_back(*name);
-      if (auto other = refitted(more, true)) {
-        one = std::move(*other), found = std::move(more);
-        continue;
-      }
-      std::erase(watched, *name);
-      result.warn("contradicted", "the logs contradict " + *name +
-                                      " as it is where nobody states it, but nothing flies with another one: "
-                                      "of the motors nothing certain is said");
+    if (const auto name = against(false)) {
+      free(*name);
     } else if (is_in(watched, kOffset) && watches(one, kOffset) &&
                steady_push(record, one.fit).matters(vehicle.g)) {
       // What stays for the whole flight passes for a gust once noise is that strong: anew, for that noise
@@ -180,6 +189,8 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
         one = std::move(*other), found = {kOffset};
       else
         std::erase(watched, kOffset);
+    } else if (const auto yaw = against(true)) {  // last: what is wrong with thrust bends yaw as well
+      free(*yaw);
     } else {
       break;
     }

@@ -18,10 +18,11 @@ namespace ident {
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p);
 
-/// That of `names` among the watched constants which the logs contradict most, if any beyond doubt: one
-/// Newton step from the fit with that one free, against its spread over blocks of time.
+/// That of `names` among the watched constants which the logs contradict most, if any by more than
+/// `beyond_doubt` squared standard deviations: one Newton step from the fit with that one free, against its
+/// spread over blocks of time.
 std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
-                                        const std::vector<std::string>& names);
+                                        const std::vector<std::string>& names, double beyond_doubt);
 
 /// A fit and what it refers to.
 struct FittedFlight {
