@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
         stderr,
         "usage: refine_campaign COUNT KIND FILE [FIRST_SEED [JOBS]]\n\n"
         "KIND: still, gusts; gusts-gyro with a controller that flies by the gyro of the log; still-silent, "
-        "gusts-silent where nobody states a dead time; gusts-drift with an attitude that drifts, "
+        "gusts-silent where nobody states Jp and a dead time; gusts-drift with an attitude that drifts, "
         "gusts-filter "
         "with what a filter shows; gusts-shaken with an IMU that feels the rotors; still-speeds, "
         "gusts-speeds "

@@ -71,7 +71,7 @@ TEST(Watched, NegativeRotorInertiaMakesNothingCertainOfYaw) {
 
 // Held at zero it makes omega_m a tenth less than it is, with a hundredth of that as deviation.
 TEST(Watched, DeadTimeThatIsNotStatedIsEstimatedWhereTheFlightShowsOne) {
-  for (const double dead_time : {0.002, 0.012, 0.06}) {
+  for (const double dead_time : {0.002, 0.012, 0.03}) {
     const Vehicle truth = quad(dead_time);
     const Result result = refined(truth, silent(truth));
     EXPECT_TRUE(result.has_warning("dead_time"));
@@ -79,6 +79,24 @@ TEST(Watched, DeadTimeThatIsNotStatedIsEstimatedWhereTheFlightShowsOne) {
     expect_known(result, truth, "dead_time", 0.0002 / dead_time);
     for (const char* name : {"omega_m", "zeta_m"}) expect_known(result, truth, name, 0.01);
   }
+}
+
+// A dead time of 60 ms looks like an offset to begin with.
+TEST(Watched, WhatIsFoundForWantOfSomethingElseIsHeldAgain) {
+  const Vehicle truth = quad(0.06);
+  const FlightLog log = flight(truth, 250, 1, 20);
+  const Result result = refine_flight(silent(truth), std::span(&log, 1), {.validate = false});
+  EXPECT_FALSE(result.has_warning("command_offset"));
+  EXPECT_EQ(result.find("Omega_0"), nullptr);
+  expect_known(result, truth, "dead_time", 0.01);
+}
+
+TEST(Watched, WithoutCommandsNothingIsAskedOfMotors) {
+  const Vehicle truth = quad(0.006);
+  FlightLog log = flight(truth, 250, 1);
+  log.delta.clear();
+  const Result result = refine_flight(silent(truth), std::span(&log, 1), {.validate = false});
+  for (const char* name : {"dead_time", "Omega_0", "km", "omega_m"}) EXPECT_EQ(result.find(name), nullptr);
 }
 
 TEST(Watched, TenSecondsAreEnough) {

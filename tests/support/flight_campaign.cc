@@ -234,6 +234,9 @@ Outcome refine_case(const Case& c) {
                                  .inside_naive = error < 1.96 * p.naive_std.value_or(p.std),
                                  .identifiable = p.identifiable});
   }
+  for (const auto& [name, b] : bound)
+    if (std::ranges::find(result.parameters, name, &Parameter::name) == result.parameters.end())
+      outcome.failure = "missed " + name;
   return outcome;
 }
 

@@ -2,6 +2,8 @@
 #include "ident/estimators/flight_impossible.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace ident {
 
@@ -34,6 +36,15 @@ void doubt_negative_rotor_inertia(Result& result) {
   result.warn("negative_rotor_inertia",
               "the vehicle turns with the rotors that speed up, not against them, and of yaw nothing certain "
               "is said: a rotor's direction is stated wrong, or the model lacks something (try ident gap)");
+}
+
+void doubt_contradicted(Result& result) {
+  static constexpr std::array<std::string_view, 7> kDepend = {"km",      "omega_m", "zeta_m", "dead_time",
+                                                              "Omega_0", "kQ",      "Jzz"};
+  if (!result.has_warning("contradicted")) return;
+  for (Parameter& p : result.parameters)
+    if (p.identifiable && std::ranges::find(kDepend, p.name) != kDepend.end())
+      p.identifiable = false, p.note = "depends on a constant that the logs contradict";
 }
 
 }  // namespace ident

@@ -16,4 +16,7 @@ void doubt_negative_dead_time(Result& result);
 /// as identifiable. Not for a vehicle whose file has the sign of the rotors' momentum as published.
 void doubt_negative_rotor_inertia(Result& result);
 
+/// After the warning `contradicted`: constants of motors and yaw do not count as identifiable.
+void doubt_contradicted(Result& result);
+
 }  // namespace ident

@@ -70,9 +70,9 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       p.identifiable = p.std < 0.5 * *c.prior_std;
     } else {
       p.from_flight = 1.0;
-      // What the model always has and may be zero (a dead time) is known by its usual size.
-      const double size = c.positive || c.index >= kEffectOffset[0] ? 0.0 : c.scale;
-      p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), size);
+      // What is zero for most vehicles is known by its usual size.
+      const bool mostly_zero = c.index == param::dead_time || c.index == param::Omega_0;
+      p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
     }
     if (!p.identifiable)
       p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
@@ -217,6 +217,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   const SteadyPush push = steady_push(record, fit);
   warn_of_steady_push(result, push, logs, vehicle.g);
   if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
+  doubt_contradicted(result);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);

@@ -13,14 +13,16 @@ namespace {
 
 // Of the weight: what matters, and what no gust does for a whole flight, however strong they seem.
 constexpr double kMatters = 0.05, kNoGust = 0.15;
-constexpr double kBeyondChance = 2.5;
+constexpr double kBeyondChance = 2.5, kBeyondChanceInOne = 3.5;  // of several logs one stands out by chance
+constexpr double kLong = 30.0;                                   // s: a whole flight, of 20 gusts
 // What stays for long is no gust, however slow the process is that was made of it.
 constexpr double kSlowestGust = 1.5;  // s
 
 }  // namespace
 
 double SteadyPush::limit(double gravity) const {
-  return std::max(kMatters * gravity, std::min(kBeyondChance * std, kNoGust * gravity));
+  const double chance = (log ? kBeyondChanceInOne : kBeyondChance) * std;
+  return std::max(kMatters * gravity, seconds < kLong ? chance : std::min(chance, kNoGust * gravity));
 }
 
 SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit) {
@@ -47,7 +49,7 @@ SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit) {
     }
   }
   const auto mean = [](const Sums& sums, std::optional<int> log) {
-    return SteadyPush{sums.push / sums.seconds, std::sqrt(sums.variance) / sums.seconds, log};
+    return SteadyPush{sums.push / sums.seconds, std::sqrt(sums.variance) / sums.seconds, sums.seconds, log};
   };
   const double g = record.vehicle->g;
   SteadyPush most = mean(all, {});

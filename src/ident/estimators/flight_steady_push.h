@@ -15,6 +15,7 @@ namespace ident {
 /// were found may take it.
 struct SteadyPush {
   double mean = 0.0, std = 0.0;
+  double seconds = 0.0;
   std::optional<int> log;  ///< of this one; over all logs without
 
   /// Whether thrust is off by more than a twentieth of the weight, beyond chance.

@@ -19,7 +19,7 @@ constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hov
 constexpr std::ptrdiff_t kFewBlocks = 8;    // do not tell by how much coloured residuals spread scores;
 constexpr double kUntold = 4.0;             // they count as that much then
 constexpr double kBeyondDoubt = 25.0;       // squared standard deviations, or fall of the cost
-constexpr double kBeyondDoubtOfYaw = 16.0;  // no gust that a controller answers unseen passes for Jp
+constexpr double kBeyondDoubtOfYaw = 16.0;  // for Jp, which none of 56 flights without effect asks for then
 constexpr double kByChance = 2.0;           // standard deviations
 constexpr double kMatters = 1e-3;           // of the unit step: less is rounding
 const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kRotor = "Jp";
@@ -102,12 +102,13 @@ void warn_of(const std::vector<std::string>& found, Result& result) {
 
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p) {
+  if (!record.signals.commands) return;
   const auto is_stated = [&](const std::string& name) {
     return vehicle.has(name) || std::ranges::find(constants, name, &FreeConstant::name) != constants.end();
   };
   for (const std::string& name : names) {
     if (is_stated(name) || (name == kDeadTime && is_stated(kDelay)) ||
-        (name == kRotor && is_stated(kMomentum)) || (name != kRotor && !record.signals.commands))
+        (name == kRotor && is_stated(kMomentum)))
       continue;
     const std::vector<FreeConstant> all = free_constants(vehicle, p, {name});
     FreeConstant held = *std::ranges::find(all, name, &FreeConstant::name);
@@ -162,19 +163,32 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
   const auto free = [&](const std::string& name) {
     std::vector<std::string> more = found;
     more.push_back(name);
-    if (auto other = refitted(more, true)) {
+    auto other = refitted(more, true);
+    if (!other) other = refitted(more, false);
+    if (other) {
       one = std::move(*other), found = std::move(more);
       return;
     }
     std::erase(watched, name);
     result.warn("contradicted", "the logs contradict " + name +
                                     " as it is where nobody states it, but nothing flies with another one: "
-                                    "of the motors nothing certain is said");
+                                    "of what depends on it nothing certain is said");
   };
   const auto against = [&](bool of_yaw) {
     std::vector<std::string> names = watched;
     std::erase_if(names, [&](const std::string& name) { return (name == kRotor) != of_yaw; });
     return contradicted(*one.theta, one.fit, names, of_yaw ? kBeyondDoubtOfYaw : kBeyondDoubt);
+  };
+  // Of what was found, while something else was still missing perhaps; it is asked no more.
+  const auto drop_one = [&] {
+    const auto name =
+        std::ranges::find_if(found, [&](const std::string& of) { return may_be_nothing(one, of); });
+    if (name == found.end()) return false;
+    std::vector<std::string> less = found;
+    std::erase(less, *name), std::erase(watched, *name);
+    auto other = refitted(less, true);
+    if (other) one = std::move(*other), found = std::move(less);
+    return other.has_value();
   };
   for (;;) {
     if (const auto name = against(false)) {
@@ -182,25 +196,20 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
     } else if (is_in(watched, kOffset) && watches(one, kOffset) &&
                steady_push(record, one.fit).matters(vehicle.g)) {
       // What stays for the whole flight passes for a gust once noise is that strong: anew, for that noise
-      // would hide the offset again, and may be behind what was found beside it.
-      auto other = refitted({kOffset}, false);
+      // would hide the offset again.
+      std::vector<std::string> more = found;
+      more.push_back(kOffset);
+      auto other = refitted(more, false);
       if (other && other->fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt &&
           !steady_push(record, other->fit).matters(vehicle.g))
-        one = std::move(*other), found = {kOffset};
+        one = std::move(*other), found = std::move(more);
       else
         std::erase(watched, kOffset);
     } else if (const auto yaw = against(true)) {  // last: what is wrong with thrust bends yaw as well
       free(*yaw);
-    } else {
+    } else if (!drop_one()) {
       break;
     }
-  }
-  // What was found while something else was still missing.
-  for (const std::string& name : std::vector<std::string>(found)) {
-    if (found.size() < 2 || !may_be_nothing(one, name)) continue;
-    std::vector<std::string> less = found;
-    std::erase(less, name), std::erase(watched, name);
-    if (auto other = refitted(less, true)) one = std::move(*other), found = std::move(less);
   }
   warn_of(found, result);
   return one;

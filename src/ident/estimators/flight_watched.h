@@ -37,7 +37,8 @@ struct WatchOptions {
 };
 
 /// An exact fit of the constants; of watched ones too where the logs contradict them, and of Omega_0 where
-/// thrust does not carry the weight and an offset puts that right: `result` is warned then.
+/// thrust does not carry the weight and an offset puts that right: `result` is warned then. What turns out to
+/// be nothing by chance, once all is found, is held again.
 FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
                            std::vector<FreeConstant> constants, const WatchOptions& options, Result& result);
 
