@@ -30,9 +30,9 @@ struct SimulationOptions {
   std::uint64_t seed = 1;
   SensorNoise noise = noise_level("typical");
   LoggedSignals signals;
-  double turbulence = 0.0;    ///< gusts, standard deviation in m/s
-  double gust_arm = 0.0;      ///< height above the origin at which they push, m
-  bool by_gyro = false;       ///< the controller flies by the rates of the row, less their bias, if it has any
+  double turbulence = 0.0;  ///< gusts, standard deviation in m/s
+  double gust_arm = 0.0;    ///< height above the origin at which they push, m
+  bool by_gyro = false;     ///< the controller flies by the rates of the row, less their bias, if it has any
   double battery_used = 0.2;  ///< share of its voltage that the battery loses over the flight, if it has one
   std::function<void(double)> progress;  ///< told the share that is done
 };
