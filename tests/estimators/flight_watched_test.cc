@@ -96,7 +96,8 @@ TEST(Watched, WithoutCommandsNothingIsAskedOfMotors) {
   FlightLog log = flight(truth, 250, 1);
   log.delta.clear();
   const Result result = refine_flight(silent(truth), std::span(&log, 1), {.validate = false});
-  for (const char* name : {"dead_time", "Omega_0", "km", "omega_m"}) EXPECT_EQ(result.find(name), nullptr);
+  for (const char* name : {"dead_time", "Omega_0", "Jp", "km", "omega_m"})
+    EXPECT_EQ(result.find(name), nullptr);
 }
 
 TEST(Watched, TenSecondsAreEnough) {

@@ -39,8 +39,8 @@ void doubt_negative_rotor_inertia(Result& result) {
 }
 
 void doubt_contradicted(Result& result) {
-  static constexpr std::array<std::string_view, 7> kDepend = {"km",      "omega_m", "zeta_m", "dead_time",
-                                                              "Omega_0", "kQ",      "Jzz"};
+  static constexpr std::array<std::string_view, 8> kDepend = {"kT",        "km",      "omega_m", "zeta_m",
+                                                              "dead_time", "Omega_0", "kQ",      "Jzz"};
   if (!result.has_warning("contradicted")) return;
   for (Parameter& p : result.parameters)
     if (p.identifiable && std::ranges::find(kDepend, p.name) != kDepend.end())

@@ -1,11 +1,12 @@
 // Omega_0, dead_time and Jp beside the constants of a fit.
 #include "ident/estimators/flight_watched.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ident/core/error.h"
+#include "ident/estimators/flight_fit_steps.h"
 #include "ident/estimators/flight_steady_push.h"
 
 namespace ident {
@@ -37,14 +38,9 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
   VectorXd g = prior.slope.cwiseProduct(prior.residual);
   for (const ScoreBlock& block : fit.blocks) F += block.information, g += block.score;
   H += F;
-  const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
-  scaled.diagonal().array() += 1e-12;
-  const Eigen::LDLT<MatrixXd> solver(scaled);
-  const auto solved = [&](const VectorXd& x) {
-    return VectorXd(s.asDiagonal() * solver.solve(s.asDiagonal() * x));
-  };
-  const VectorXd direction = solved(VectorXd::Unit(n, at)), step = -solved(g);
+  H.diagonal() *= 1 + 1e-12;  // what nothing tells
+  const MatrixXd covariance = inverse_of(H);
+  const VectorXd direction = covariance.col(at), step = -covariance * g;
   if (!(std::abs(step[at]) > kMatters && direction[at] > 0)) return 0;
   double spread = 0;
   for (const ScoreBlock& block : fit.blocks)
@@ -98,8 +94,8 @@ void warn_of(const std::vector<std::string>& found, Result& result) {
                 "estimated too, on which Jzz and kQ depend");
 }
 
-}  // namespace
-
+// Adds those of `names` to the constants, held where they are and watched: what the flight says against that
+// comes with the fit. Not one that the vehicle states or that is free, nor one that is there as an effect.
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p) {
   if (!record.signals.commands) return;
@@ -118,6 +114,9 @@ void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& con
   }
 }
 
+// That of `names` among the watched constants which the logs contradict most, if any by more than
+// `beyond_doubt` squared standard deviations: one Newton step from the fit with that one free, against its
+// spread over blocks of time.
 std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
                                         const std::vector<std::string>& names, double beyond_doubt) {
   std::optional<std::string> found;
@@ -130,6 +129,8 @@ std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit
   }
   return found;
 }
+
+}  // namespace
 
 FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
                            std::vector<FreeConstant> constants, const WatchOptions& options, Result& result) {

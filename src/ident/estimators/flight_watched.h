@@ -5,24 +5,11 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include "ident/core/result.h"
 #include "ident/estimators/flight_fit.h"
 
 namespace ident {
-
-/// Adds those of `names` (Omega_0, dead_time, Jp) to the constants of a fit, held where they are and watched:
-/// what the flight says against that comes with the fit. Not one that the vehicle states or that is free, nor
-/// one that is there as an effect.
-void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
-           const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p);
-
-/// That of `names` among the watched constants which the logs contradict most, if any by more than
-/// `beyond_doubt` squared standard deviations: one Newton step from the fit with that one free, against its
-/// spread over blocks of time.
-std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
-                                        const std::vector<std::string>& names, double beyond_doubt);
 
 /// A fit and what it refers to.
 struct FittedFlight {
@@ -31,7 +18,7 @@ struct FittedFlight {
 };
 
 struct WatchOptions {
-  std::vector<std::string> watched;  ///< names
+  std::vector<std::string> watched;  ///< of Omega_0, dead_time, Jp: held where nobody states them
   std::vector<std::string> also;     ///< constants that are free besides those of the vehicle
   std::function<void(double)> progress;
 };
