@@ -12,7 +12,7 @@ constexpr double kHuber = 4.0;  // standard deviations beyond which a residual c
 constexpr double kNearly = 0.3;
 // Change of a noise level at which it is known, and roughly known; rounds for the air's in each round.
 constexpr double kKnown = 0.03, kRoughly = 0.1;
-constexpr int kRetuned = 6, kFewRetuned = 3;
+constexpr int kManyRetuned = 9, kRetuned = 6, kFewRetuned = 3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
 // A mean square of residuals, in variances, that those steps leave, or further steps of such length, where
@@ -25,6 +25,9 @@ constexpr int kBeforeSteps = 4;
 constexpr double kFar = 1e4;
 constexpr double kCalm = 10.0;
 constexpr double kHeldChunk = 0.2, kSureChunk = 0.1;  // lengths of the first chunks, s
+// A step that is taken without a look at where it begins: the largest change of a logarithm, what it may
+// leave of what it promised, and the mean square of residuals, in variances, that it leads to.
+constexpr double kBend = 0.3, kHardlyBends = 0.1, kExplained = 1.1;
 // Chunks are cut anew where others are wanted, so many times as long, for speed, or as short, for the truth.
 constexpr double kLonger = 1.5, kShorter = 1.2;
 // Fall of the cost that steps of lower order may feign by the rows of chunks, and where these end. Of the
@@ -105,26 +108,29 @@ double Fitting::surprise() {
 bool Fitting::go_on_from(const Fitting& excerpt) {
   serves_ = excerpt.by_;
   u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
-  // The end has to be of fine steps: what is found here by others would have to be found once more.
-  by_ = options_.exact ? Steps::fine : excerpt.by_;
+  by_ = excerpt.by_;
   restart(excerpt.smoother_->noise(), 1, near());
+  // The end has to be of fine steps: what is found here by others would have to be found once more. No step
+  // of the constants yet: it was worth nothing from states that had not settled.
+  if (options_.exact) smoother_->set_steps(by_ = Steps::fine);
   if (!(square_of(*smoother_) < kFar)) {
     u_ = start_of(theta_, options_), axes_chosen_ = false, steps_ = 0;
     return false;
   }
-  const NewtonStep step = newton_step(*smoother_, u_);
-  if (step.fall < kNear * theta_.size() && is_short(theta_, u_, step.du)) u_ += step.du;
   return gone_on_ = true;
 }
 
 void Fitting::find_noise(const std::function<void(double)>& tell) {
+  bool looked_at = false;  // where this round begins
   for (int round = 0; round < options_.noise_rounds; ++round) {
-    smoother_->linearize(u_, true);
+    if (!looked_at) smoother_->linearize(u_, true);
+    looked_at = false;
     smoother_->set_gentle(false);
     smoother_->accept();
     if (options_.robust) smoother_->set_huber(kHuber);
     const NoiseModel before = smoother_->noise();
-    const double change = update_noise(*smoother_, options_.rough_noise && gone_on_ ? kFewRetuned : kRetuned);
+    const int rounds = options_.rough_noise ? (gone_on_ ? kFewRetuned : kRetuned) : kManyRetuned;
+    const double change = update_noise(*smoother_, rounds);
     const double wanted =
         options_.chunk_seconds > 0 ? chunk_ : chunk_for(record_, smoother_->noise(), options_.fine_gusts);
     if (round < 2 && (wanted > kLonger * chunk_ || wanted < chunk_ / kShorter)) {
@@ -133,7 +139,8 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     }
     tell(static_cast<double>(round + 1) / options_.noise_rounds);
     bool turned = false;
-    if (options_.choose_axes && !axes_chosen_ && !axes_asked_ && change < kNearly) {
+    if (options_.choose_axes && !axes_chosen_ && !axes_asked_ && change < kNearly &&
+        newton_step(*smoother_, u_).fall < kNear * theta_.size()) {
       axes_asked_ = true, axes_chosen_ = choose_axes(*smoother_, u_);
       turned = smoother_->noise().axes != GustAxes::world;
     }
@@ -144,6 +151,8 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     if (done && !(step.fall < kNear * theta_.size())) break;
     if ((done || step.fall < kNear) && is_short(theta_, u_, step.du)) {
       u_ += step.du;
+    } else if (!done && !options_.rough_noise && steps_far(step)) {
+      looked_at = true;
     } else if (is_finite(smoother_->linearize(u_))) {
       trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
     } else {  // a sensor that seems to have no noise at all
@@ -152,6 +161,18 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     }
     if (done) break;
   }
+}
+
+// A step from far, to where the next round of noise looks at once: taken where the model then misses nothing
+// that noise does not explain, and hardly bent on the way. Any other is for a trust region, which looks
+// twice.
+bool Fitting::steps_far(const NewtonStep& step) {
+  if (!is_short(theta_, u_, step.du / kBend)) return false;
+  const VectorXd to = u_ + step.du;
+  if (!is_finite(smoother_->linearize(to, true)) || square_of(*smoother_) > kExplained) return false;
+  if (!(newton_step(*smoother_, to).fall < kHardlyBends * step.fall)) return false;
+  u_ = to, ++steps_;
+  return true;
 }
 
 bool Fitting::steps_show(double times) {

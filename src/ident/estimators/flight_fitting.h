@@ -53,6 +53,7 @@ class Fitting {
   void restart(const NoiseModel& noise, int rounds = 2, const FlightSmoother* from = nullptr);
   // What there is of a like model, over the same record.
   const FlightSmoother* near() const;
+  bool steps_far(const NewtonStep& step);
   void trust_region(const TrustRegion& region);
 
   const FlightRecord& record_;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "ident/core/error.h"
-#include "ident/core/parallel.h"
 #include "ident/estimators/flight_pieces.h"
 #include "ident/estimators/flight_record_start.h"
 #include "ident/estimators/flight_slow_errors.h"
@@ -184,12 +183,7 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     throw DataError(
         "nothing that moves was logged: rates, attitude or specific force are needed, and a path helps");
   take_out_velocity_bias(record);
-  in_parallel(2, [&](std::size_t part) {
-    if (part == 0)
-      set_motor_start(record, p);
-    else
-      set_noise(record);
-  });
+  set_noise_and_motor_start(record, p);
   set_body_start(record);
   add_slow_errors(record);
   return record;

@@ -177,8 +177,16 @@ std::vector<double> filled_column(const FlightArc& arc, int channel) {
   return interpolated(arc.t, column);
 }
 
-void set_noise(FlightRecord& record) {
-  in_parallel(kChannels, [&](std::size_t c) {
+void set_noise_and_motor_start(FlightRecord& record, std::span<const double> p) {
+  const std::size_t arcs = record.arcs.size();
+  in_parallel(arcs + kChannels, [&](std::size_t i) {
+    if (i < arcs) {
+      FlightArc& arc = record.arcs[i];
+      arc.start.resize(arc.rows());
+      if (arc.inputs->commanded()) simulate_motors(arc, *record.vehicle, p);
+      return;
+    }
+    const std::size_t c = i - arcs;
     const int channel = static_cast<int>(c);
     const bool turn = channel >= kAttitude && channel < kAttitude + 3;
     const double s =
@@ -191,14 +199,6 @@ void set_noise(FlightRecord& record) {
     const double top = std::max({record.sigma[g], record.sigma[g + 1], record.sigma[g + 2]});
     for (std::size_t k = 0; k < 3; ++k) record.sigma[g + k] = std::max(record.sigma[g + k], 0.2 * top);
   }
-}
-
-void set_motor_start(FlightRecord& record, std::span<const double> p) {
-  in_parallel(record.arcs.size(), [&](std::size_t number) {
-    FlightArc& arc = record.arcs[number];
-    arc.start.resize(arc.rows());
-    if (arc.inputs->commanded()) simulate_motors(arc, *record.vehicle, p);
-  });
 }
 
 void set_body_start(FlightRecord& record) {

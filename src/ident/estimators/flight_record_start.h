@@ -11,11 +11,9 @@ std::vector<double> interpolated(const std::vector<double>& t, const std::vector
 /// A channel of an arc, likewise.
 std::vector<double> filled_column(const FlightArc& arc, int channel);
 
-/// White noise of every channel from differences of its samples.
-void set_noise(FlightRecord& record);
-
-/// States of all rows, their motors simulated with the constants `p`.
-void set_motor_start(FlightRecord& record, std::span<const double> p);
+/// White noise of every channel from differences of its samples, and states of all rows, their motors
+/// simulated with the constants `p`.
+void set_noise_and_motor_start(FlightRecord& record, std::span<const double> p);
 
 /// The rest of those states, as measured; asks for the noise.
 void set_body_start(FlightRecord& record);

@@ -8,7 +8,6 @@
 #endif
 #include <libfccp/csv.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -58,6 +57,14 @@ class CheckedBytes : public io::ByteSourceBase {
     throw InputError(path_, 0, "", std::string(what) + ": " + std::strerror(error));
   }
 
+  // By memchr: std::count looks at one byte after the other, which takes a tenth of the time of a whole log.
+  static long newlines(std::string_view bytes) {
+    long count = 0;
+    for (std::size_t at = bytes.find('\n'); at != std::string_view::npos; at = bytes.find('\n', at + 1))
+      ++count;
+    return count;
+  }
+
   void check(std::string_view bytes) {
     if (first_) {
       refuse_no_text(path_, bytes.substr(0, 64));
@@ -66,9 +73,9 @@ class CheckedBytes : public io::ByteSourceBase {
     }
     const std::size_t nul = bytes.find('\0');
     if (nul != std::string_view::npos)
-      throw InputError(path_, line_ + std::ranges::count(bytes.substr(0, nul), '\n'), "",
+      throw InputError(path_, line_ + newlines(bytes.substr(0, nul)), "",
                        "holds a NUL byte: a binary file, or a log that was cut off");
-    line_ += std::ranges::count(bytes, '\n');
+    line_ += newlines(bytes);
     last_ = bytes.back();
     seen_->ended_with_newline = last_ == '\n';
   }
