@@ -19,6 +19,7 @@
 #include "ident/estimators/flight_residuals.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_steady_push.h"
+#include "ident/estimators/flight_steady_turn.h"
 #include "ident/estimators/flight_thrust_curve.h"
 #include "ident/estimators/flight_trim.h"
 #include "ident/estimators/flight_validation.h"
@@ -216,6 +217,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     result.warnings.push_back(w), tested.push_back(w);
   const SteadyPush push = steady_push(record, fit);
   warn_of_steady_push(result, push, logs, vehicle.g);
+  warn_of_steady_turn(result, steady_turn(record, theta, fit), vehicle, theta.p(fit.u), logs);
   if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
   doubt_contradicted(result);
   warn_about(result, theta, fit);
