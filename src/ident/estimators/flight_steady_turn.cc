@@ -97,20 +97,23 @@ void warn_of_steady_turn(Result& result, const SteadyTurn& turn, const Vehicle& 
   const double weight = p[param::m] * vehicle.g;
   const double ahead = -turn.mean[1] / weight,
                right = turn.mean[0] / weight;  // weight's lever about the thrust
+  const double torque = std::abs(turn.mean[2]) / torque_of(vehicle, p);
   const std::string where =
       turn.log ? "of " + logs[static_cast<std::size_t>(*turn.log)].file : std::string("of these logs");
+  const std::string yaw = std::abs(turn.mean[2]) > turn.matters[2] && turn.matters[2] > 0
+                              ? fmt::format(", or {:.0f} % more torque one way than the other", 100 * torque)
+                              : "";
   result.warn(
       "steady_moment",
       fmt::format(
           "in the mean {} moments of {}, {} and {} N m about x, y and z turn the vehicle that the model does "
           "not have, and no gust lasts as long: as with its centre of gravity {} mm {} and {} mm {} of where "
-          "it is stated ({:.1f} % of the arm), with rotors unlike each other, or about z with {:.0f} % more "
-          "torque one way. It counts as gusts here, and constants may be bent for its cause (try ident gap)",
+          "it is stated ({:.1f} % of the arm), or rotors unlike each other{}. They count as gusts here, and "
+          "constants may be bent for their cause (try ident gap)",
           where, format_number(turn.mean[0], 2), format_number(turn.mean[1], 2),
           format_number(turn.mean[2], 2), format_number(1e3 * std::abs(ahead), 2),
           ahead > 0 ? "ahead" : "behind", format_number(1e3 * std::abs(right), 2),
-          right > 0 ? "right" : "left", 100 * std::hypot(ahead, right) / arm_of(vehicle),
-          100 * std::abs(turn.mean[2]) / torque_of(vehicle, p)));
+          right > 0 ? "right" : "left", 100 * std::hypot(ahead, right) / arm_of(vehicle), yaw));
 }
 
 }  // namespace ident
