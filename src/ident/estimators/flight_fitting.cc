@@ -138,20 +138,21 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
       restart(smoother_->noise(), 2, smoother_.get());
     }
     tell(static_cast<double>(round + 1) / options_.noise_rounds);
+    const bool known =
+        change < (options_.rough_noise ? kRoughly : kKnown) || (round >= 5 && change < kNearly);
     bool turned = false;
-    if (options_.choose_axes && !axes_chosen_ && !axes_asked_ && change < kNearly &&
-        newton_step(*smoother_, u_).fall < kNear * theta_.size()) {
+    if (options_.choose_axes && !axes_chosen_ && !axes_asked_ &&
+        (known || (change < kNearly && newton_step(*smoother_, u_).fall < kNear * theta_.size()))) {
       axes_asked_ = true, axes_chosen_ = choose_axes(*smoother_, u_);
       turned = smoother_->noise().axes != GustAxes::world;
     }
     const NewtonStep step = newton_step(*smoother_, u_);
     smoother_->accept();
-    const bool done =
-        !turned && (change < (options_.rough_noise ? kRoughly : kKnown) || (round >= 5 && change < kNearly));
+    const bool done = known && !turned;
     if (done && !(step.fall < kNear * theta_.size())) break;
     if ((done || step.fall < kNear) && is_short(theta_, u_, step.du)) {
       u_ += step.du;
-    } else if (!done && !options_.rough_noise && steps_far(step)) {
+    } else if (!done && change < kNearly && !options_.rough_noise && steps_far(step)) {
       looked_at = true;
     } else if (is_finite(smoother_->linearize(u_))) {
       trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
@@ -161,6 +162,7 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     }
     if (done) break;
   }
+  if (looked_at) smoother_->accept();
 }
 
 // A step from far, to where the next round of noise looks at once: taken where the model then misses nothing
@@ -169,7 +171,9 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
 bool Fitting::steps_far(const NewtonStep& step) {
   if (!is_short(theta_, u_, step.du / kBend)) return false;
   const VectorXd to = u_ + step.du;
-  if (!is_finite(smoother_->linearize(to, true)) || square_of(*smoother_) > kExplained) return false;
+  if (!theta_.possible(to) || !is_finite(smoother_->linearize(to, true)) ||
+      square_of(*smoother_) > kExplained)
+    return false;
   if (!(newton_step(*smoother_, to).fall < kHardlyBends * step.fall)) return false;
   u_ = to, ++steps_;
   return true;

@@ -217,7 +217,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     result.warnings.push_back(w), tested.push_back(w);
   const SteadyPush push = steady_push(record, fit);
   warn_of_steady_push(result, push, logs, vehicle.g);
-  warn_of_steady_turn(result, steady_turn(record, theta, fit), vehicle, theta.p(fit.u), logs);
+  if (disqualified(tested).empty())
+    warn_of_steady_turn(result, steady_turn(record, theta, fit), record, logs);
   if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
   doubt_contradicted(result);
   warn_about(result, theta, fit);

@@ -11,22 +11,24 @@
 
 namespace ident {
 
-/// Mean moment from outside about the axes of the body, N m, and how far gusts as strong as those that were
-/// found may take it.
+/// Mean moment from outside about the axes of the body, N m.
 struct SteadyTurn {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero(), std = Eigen::Vector3d::Zero();
-  Eigen::Vector3d matters = Eigen::Vector3d::Zero();  ///< smaller ones every vehicle has
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d chance = Eigen::Vector3d::Zero();   ///< no more than this comes of gusts
+  Eigen::Vector3d matters = Eigen::Vector3d::Zero();  ///< smaller ones every vehicle has; 0: unknown
+  double weight = 0.0;                                ///< N, with what the model carries
   std::optional<int> log;                             ///< of this one; over all logs without
 
-  /// Times what matters and what chance may make of it, of the axis where that is most.
-  double times() const;
+  /// Times what matters and what chance may make of it, about one axis; above 1 it stands out.
+  double times(int axis) const;
+  double times() const;  ///< of the axis where that is most
 };
 
-/// Over all logs, or in that one where it stands out most if that is more.
+/// Over all logs, or in that one where it stands out most if that is more. None in less than 18 s.
 SteadyTurn steady_turn(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
 
-/// Warns of a moment that matters, in terms of what may be behind it.
-void warn_of_steady_turn(Result& result, const SteadyTurn& turn, const Vehicle& vehicle,
-                         std::span<const double> p, std::span<const FlightLog> logs);
+/// Warns of a moment that stands out, in terms of what may be behind it.
+void warn_of_steady_turn(Result& result, const SteadyTurn& turn, const FlightRecord& record,
+                         std::span<const FlightLog> logs);
 
 }  // namespace ident
