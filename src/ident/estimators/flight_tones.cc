@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <unsupported/Eigen/FFT>
 
 #include "ident/estimators/flight_changes.h"
+#include "ident/estimators/periodograms.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -177,29 +177,25 @@ bool has_uneven_spectrum(const FlightRecord& record, int channel) {
   constexpr std::size_t kLength = 64;
   constexpr double kBeyondDoubt = 6.0;  // standard deviations of a mean of periodograms
   constexpr double kSlow = 20.0;        // Hz below which motion stands out
-  std::vector<double> power(kLength / 2 + 1, 0.0), hann(kLength), block, windowed(kLength);
-  for (std::size_t i = 0; i < kLength; ++i)
-    hann[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / kLength);
-  double blocks = 0, samples = 0;
-  Eigen::FFT<double> fft;
-  std::vector<std::complex<double>> spectrum;
+  Periodograms blocks(kLength);
+  std::vector<double> block;
+  double samples = 0;
   for (const FlightArc& arc : record.arcs) {
     block.clear();
     for (std::size_t i = 0; i < arc.rows(); ++i) {
       const double y = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
       if (std::isfinite(y)) block.push_back(y), samples += 1;
       if (block.size() < kLength) continue;
-      for (std::size_t k = 0; k < kLength; ++k) windowed[k] = (block[k] - block[0]) * hann[k];
-      fft.fwd(spectrum, windowed);
-      for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(spectrum[k]);
-      block.clear(), blocks += 1;
+      blocks.add(block, block.front());
+      block.clear();
     }
   }
-  if (blocks < 8) return false;
+  const std::vector<double>& power = blocks.power();
+  if (blocks.count() < 8) return false;
   const double rate = samples / record.duration;
   const auto first = static_cast<std::size_t>(std::ceil(std::min(kSlow, 0.2 * rate) / rate * kLength)) + 1;
   const std::vector<double> fast(power.begin() + static_cast<std::ptrdiff_t>(first), power.end() - 1);
-  return std::ranges::max(fast) > (1 + kBeyondDoubt / std::sqrt(blocks)) * median(fast);
+  return std::ranges::max(fast) > (1 + kBeyondDoubt / std::sqrt(blocks.count())) * median(fast);
 }
 
 TurningRotors::TurningRotors(const FlightRecord& record)

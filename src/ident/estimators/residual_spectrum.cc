@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <numbers>
-#include <unsupported/Eigen/FFT>
+
+#include "ident/estimators/periodograms.h"
 
 namespace ident {
 namespace {
@@ -14,15 +13,6 @@ constexpr std::size_t kLongest = 512;  // samples in a segment
 // Hann windows that overlap by half share a sixth of their squared weight: so many segments are worth one
 // less.
 constexpr double kIndependent = 9.0 / 11.0;
-
-std::vector<double> hann(std::size_t n) {
-  std::vector<double> w(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double s = std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
-    w[i] = s * s;
-  }
-  return w;
-}
 
 /// Quantile of a chi-squared variable over its degrees of freedom, by Wilson and Hilferty; `z` of the normal.
 double chi_squared_share(double degrees, double z) {
@@ -39,26 +29,14 @@ Spectrum spectrum_of(std::span<const double> residual, double interval) {
   for (double& v : y) v = std::isfinite(v) ? v : 0.0, power += v * v;
   const std::size_t length = std::min(kLongest, y.size());
   if (length < 16 || !(interval > 0.0)) return out;
-  const std::vector<double> window = hann(length);
-  double weight = 0.0;
-  for (const double w : window) weight += w * w;
-
-  out.density.assign(length / 2, 0.0);
-  double segments = 0.0;
-  Eigen::FFT<double> fft;
-  std::vector<double> stretch(length);
-  std::vector<std::complex<double>> transform;
-  for (std::size_t start = 0; start + length <= y.size(); start += length / 2, ++segments) {
-    for (std::size_t i = 0; i < length; ++i) stretch[i] = window[i] * y[start + i];
-    fft.fwd(transform, stretch);
-    for (std::size_t f = 1; f <= length / 2; ++f)
-      out.density[f - 1] += 2.0 * std::norm(transform[f]) * interval / weight;
-  }
+  Periodograms stretches(length);
+  for (std::size_t start = 0; start + length <= y.size(); start += length / 2)
+    stretches.add(std::span(y).subspan(start, length), 0.0);
   for (std::size_t f = 1; f <= length / 2; ++f) {
     out.frequency.push_back(static_cast<double>(f) / (static_cast<double>(length) * interval));
-    out.density[f - 1] /= segments;
+    out.density.push_back(2.0 * interval * stretches.power()[f] / (stretches.weight() * stretches.count()));
   }
-  const double degrees = 2.0 * std::max(1.0, kIndependent * segments);
+  const double degrees = 2.0 * std::max(1.0, kIndependent * stretches.count());
   out.white = 2.0 * interval * power / static_cast<double>(y.size());
   out.low = out.white * chi_squared_share(degrees, -1.96);
   out.high = out.white * chi_squared_share(degrees, 1.96);

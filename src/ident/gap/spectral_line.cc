@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/FFT>
+#include <numeric>
+#include <span>
 
 #include "ident/core/parallel.h"
 #include "ident/estimators/flight_slow_errors.h"
 #include "ident/estimators/flight_tones.h"
+#include "ident/estimators/periodograms.h"
 
 namespace ident {
 namespace {
@@ -20,24 +22,15 @@ constexpr double kAirLine = 8.0;
 
 using Pieces = std::vector<std::vector<double>>;  // of a series, evenly sampled, one for each arc
 
-// Mean periodogram of half overlapping stretches; `count` of them.
-std::vector<double> welch(const Pieces& pieces, std::size_t length, int& count) {
-  std::vector<double> power(length / 2 + 1, 0.0), stretch(length), window(length);
-  for (std::size_t i = 0; i < length; ++i)
-    window[i] = 0.5 - 0.5 * std::cos(2 * M_PI * static_cast<double>(i) / static_cast<double>(length));
-  std::vector<std::complex<double>> frequency;
-  Eigen::FFT<double> fft;
-  count = 0;
+// Of half overlapping stretches.
+Periodograms welch(const Pieces& pieces, std::size_t length) {
+  Periodograms out(length);
   for (const std::vector<double>& x : pieces)
     for (std::size_t from = 0; from + length <= x.size(); from += length / 2) {
-      double mean = 0;
-      for (std::size_t i = 0; i < length; ++i) mean += x[from + i] / static_cast<double>(length);
-      for (std::size_t i = 0; i < length; ++i) stretch[i] = (x[from + i] - mean) * window[i];
-      fft.fwd(frequency, stretch);
-      for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(frequency[k]);
-      ++count;
+      const auto stretch = std::span(x).subspan(from, length);
+      out.add(stretch, std::accumulate(stretch.begin(), stretch.end(), 0.0) / static_cast<double>(length));
     }
-  return power;
+  return out;
 }
 
 double running_median(const std::vector<double>& power, std::size_t k) {
@@ -60,10 +53,11 @@ void look_for_line(const std::string& channel, const Pieces& pieces, double h, b
   std::size_t length = 1024;
   while (length * 4 > longest && length > 64) length /= 2;
   if (length * 4 > longest) return;
-  int count = 0;
-  const std::vector<double> power = welch(pieces, length, count);
-  // Quantile of the mean of `count` periodograms over its median (Wilson and Hilferty).
-  const double v = 1 / (9 * 0.8 * count), chance = std::pow((1 - v + kChance * std::sqrt(v)) / (1 - v), 3);
+  const Periodograms stretches = welch(pieces, length);
+  const std::vector<double>& power = stretches.power();
+  // Quantile of the mean of so many periodograms over its median (Wilson and Hilferty).
+  const double v = 1 / (9 * 0.8 * stretches.count()),
+               chance = std::pow((1 - v + kChance * std::sqrt(v)) / (1 - v), 3);
   const double most = air ? std::max(chance, kAirLine) : chance;
   double total = 0, best = 0, share = 0;
   std::size_t at = 0;
