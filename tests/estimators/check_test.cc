@@ -116,6 +116,15 @@ TEST(Check, EveryFaultIsNamed) {
   }
 }
 
+// A file may place every rotor and state no arm: what units slip in is as wrong there.
+TEST(Check, RotorsPlacesSayHowLargeAVehicleIs) {
+  Vehicle v = sound_vehicle();
+  v.arm.reset(), v.parameters.erase("l");
+  EXPECT_TRUE(codes(check_consistency(v)).empty());
+  for (const char* name : {"Jxx", "Jyy", "Jzz"}) v.parameters[name].value *= 1e4;  // kg cm^2 for kg m^2
+  EXPECT_TRUE(holds(codes(check_consistency(v)), "implausible_inertia"));
+}
+
 TEST(Check, ATriangleWithinItsUncertaintyIsADoubtOnly) {
   Vehicle v = sound_vehicle();
   v.parameters["Jzz"] = {16.1e-3, 2e-4};  // 0.1e-3 above the sum, whose standard deviation is 0.245e-3

@@ -12,6 +12,7 @@
 #include "ident/core/format_number.h"
 #include "ident/estimators/consistency.h"
 #include "ident/estimators/statistics.h"
+#include "ident/model/arm_length.h"
 
 namespace ident {
 namespace {
@@ -81,10 +82,11 @@ void check_principal(const Vehicle& vehicle, Consistency& found) {
 /// Radius of gyration against the arm: a slip of units is a factor of 10 or more.
 void check_size(const Vehicle& vehicle, Consistency& found) {
   const std::string what = "size of the inertia";
-  if (!vehicle.arm || !vehicle.has("m") || !(vehicle.value("m") > 0.0))
+  const std::optional<Known> arm = arm_length(vehicle);
+  if (!arm || !(arm->value > 0.0) || !vehicle.has("m") || !(vehicle.value("m") > 0.0))
     return found.cannot_be_judged(what, "mass and arm");
   for (const std::string& name : kMoments) {
-    const double ratio = std::sqrt(vehicle.value(name) / vehicle.value("m")) / *vehicle.arm;
+    const double ratio = std::sqrt(vehicle.value(name) / vehicle.value("m")) / arm->value;
     if (ratio > 0.05 && ratio < 1.5) continue;
     return found.violated(
         what, {"implausible_inertia",
@@ -93,12 +95,12 @@ void check_size(const Vehicle& vehicle, Consistency& found) {
                            name, format_number(vehicle.value(name)), format_number(ratio, 3)),
                {{name, vehicle.value(name)},
                 {"m", vehicle.value("m")},
-                {"l", *vehicle.arm},
+                {"l", arm->value},
                 {"radius_of_gyration_over_arm", ratio}}});
   }
-  found.ok(what, fmt::format(
-                     "radius of gyration about z is {} arm lengths",
-                     format_number(std::sqrt(vehicle.value("Jzz") / vehicle.value("m")) / *vehicle.arm, 3)));
+  found.ok(what,
+           fmt::format("radius of gyration about z is {} arm lengths",
+                       format_number(std::sqrt(vehicle.value("Jzz") / vehicle.value("m")) / arm->value, 3)));
 }
 
 }  // namespace

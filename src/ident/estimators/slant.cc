@@ -12,6 +12,7 @@
 #include "ident/estimators/slant_optimum.h"
 #include "ident/estimators/slant_tables.h"
 #include "ident/estimators/statistics.h"
+#include "ident/model/arm_length.h"
 
 namespace ident {
 namespace {
@@ -27,15 +28,9 @@ Known needed(const Vehicle& vehicle, const std::string& name, const std::string&
   return known;
 }
 
-/// Centre to hub: the file's arm, else the mean over the rotors.
-Known arm_of(const Vehicle& vehicle) {
-  if (vehicle.has("l")) return vehicle.parameters.at("l");
-  if (vehicle.arm) return {*vehicle.arm, {}};
-  double sum = 0.0;
-  for (const Rotor& rotor : vehicle.rotors) sum += rotor.r_B.head<2>().norm();
-  if (!(sum > 0.0))
-    throw InputError(vehicle.file, 0, "arm", "is missing: the slant angle needs the distance of the hubs");
-  return {sum / static_cast<double>(vehicle.rotors.size()), {}};
+Known needed_arm(const Vehicle& vehicle) {
+  if (const std::optional<Known> arm = arm_length(vehicle)) return *arm;
+  throw InputError(vehicle.file, 0, "arm", "is missing: the slant angle needs the distance of the hubs");
 }
 
 /// Angle at which the lateral rotors are mounted; NaN where the file states none (a layout without
@@ -119,7 +114,7 @@ Section section(const Vehicle& vehicle, double arm, double alpha, double best) {
 Result estimate_slant(const Vehicle& vehicle, const SlantOptions& options) {
   Result result{.command = "slant", .inputs = {vehicle.file}, .warnings = vehicle.warnings};
   const Known kT = needed(vehicle, "kT", "the thrust constant"),
-              kQ = needed(vehicle, "kQ", "the torque constant"), arm = arm_of(vehicle);
+              kQ = needed(vehicle, "kQ", "the torque constant"), arm = needed_arm(vehicle);
   const Vehicle quadrotor = judged(vehicle, arm.value, result);
   const double alpha = optimal_slant(kT.value, kQ.value, arm.value);
   const double std = optimal_slant_std(kT, kQ, arm, options.correlation);
