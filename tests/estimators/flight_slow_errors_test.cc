@@ -67,6 +67,19 @@ TEST(SlowErrors, AreToldApart) {
   }
 }
 
+// Large white noise of an attitude that is sampled often sums up in the body's own frame, and is not slow.
+TEST(SlowErrors, AreNotTheWhiteNoiseOfAnAttitudeThatTurns) {
+  const Vehicle vehicle = testing::published_vehicle();
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SimulationOptions options;
+    options.duration = 45.0, options.rate = 400.0, options.seed = seed;
+    options.noise.attitude = 0.012;
+    found += any_drifts(record_of(vehicle, simulate_flight(vehicle, options).log));
+  }
+  EXPECT_LE(found, 1);
+}
+
 // How a sensor is mounted, its scale, bias or delay is none of it, nor is flight with little of anything.
 TEST(SlowErrors, AreNotWhatElsePartsSensors) {
   const Vehicle plain = testing::published_vehicle();

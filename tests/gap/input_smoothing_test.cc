@@ -68,10 +68,10 @@ TEST(InputSmoothing, AVerdictWithALooseCauseIsWithdrawnAndKeepsItsRivals) {
   Judged verdict{.status = "ambiguous", .effects = {"wind"}, .confused_with = {"payload"}};
   GapClosed gap;
   gap.before = 3, gap.after = 1;
-  const Judged kept = with_noisy_input(verdict, {"rotor_drag"}, gap);  // which only carries the wind
+  const Judged kept = with_noisy_input(verdict, {"rotor_drag"}, {}, gap);  // which only carries the wind
   EXPECT_EQ(kept.status, "ambiguous");
   EXPECT_EQ(kept.effects, Names{"wind"});
-  const Judged withdrawn = with_noisy_input(verdict, {"rotor_drag", "wind"}, gap);
+  const Judged withdrawn = with_noisy_input(verdict, {"rotor_drag", "wind"}, {}, gap);
   EXPECT_EQ(withdrawn.status, "unknown");
   EXPECT_TRUE(withdrawn.effects.empty());
   EXPECT_TRUE(withdrawn.refused);
@@ -79,7 +79,32 @@ TEST(InputSmoothing, AVerdictWithALooseCauseIsWithdrawnAndKeepsItsRivals) {
   EXPECT_NE(withdrawn.sentence.find("the size of wind depends"), std::string::npos);
   EXPECT_NE(withdrawn.sentence.find("log the commands too"), std::string::npos);
   gap.after = 3.1;
-  EXPECT_EQ(with_noisy_input(verdict, {}, gap).status, "unknown");
+  EXPECT_EQ(with_noisy_input(verdict, {}, {}, gap).status, "unknown");
+}
+
+TEST(InputSmoothing, WhatIsTooSmallToBeSeenIsNotNamedWhereTheRestIsNoise) {
+  const Judged verdict{.status = "identified", .effects = {"gyroscopic"}};
+  GapClosed gap;
+  gap.before = 3, gap.after = 1.05, gap.floor = 1;
+  const Judged none = with_noisy_input(verdict, {}, {"gyroscopic"}, gap);
+  EXPECT_EQ(none.status, "none");
+  EXPECT_TRUE(none.effects.empty());
+  EXPECT_EQ(with_noisy_input(verdict, {}, {"wind"}, gap).effects, Names{"gyroscopic"});
+  gap.after = 1.5;
+  EXPECT_EQ(with_noisy_input(verdict, {}, {"gyroscopic"}, gap).effects, Names{"gyroscopic"});
+}
+
+// Rotors that are over with a change before three rows have passed, by a file that says so.
+TEST(InputSmoothing, OfFastMotorsACauseHasToBeLarger) {
+  Vehicle vehicle = testing::published_vehicle();
+  const std::vector<FlightLog> logs{testing::flight_of(vehicle, 2)};
+  const auto size = [&](double lag) {
+    vehicle.parameters["omega_m"].value = 2 * vehicle.value("zeta_m") / lag;
+    return least_size(make_flight_record(vehicle, parameter_vector(vehicle), logs));
+  };
+  const double row = logs[0].t[1] - logs[0].t[0];
+  EXPECT_EQ(size(10 * row), 1.0);
+  EXPECT_GT(size(1.5 * row), 1.0);
 }
 
 std::vector<FlightLog> without_commands(const Vehicle& truth, double noise) {

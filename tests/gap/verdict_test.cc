@@ -124,7 +124,7 @@ TEST(Verdict, ALagThatNoPhysicsMakesIsNamedWhateverIsBesideIt) {
          {"parameter:omega_m", "rotor_tilt", "gyroscopic", "battery_sag"});
   c.weighs({0, 1, 2, 3}, 1.0);
   Parameter omega_m, zeta_m;
-  omega_m.name = "omega_m", omega_m.value = 28, omega_m.prior_value = 300;
+  omega_m.name = "omega_m", omega_m.value = 28, omega_m.std = 1, omega_m.prior_value = 300;
   zeta_m.name = "zeta_m", zeta_m.value = 1;
   c.fitted = {omega_m, zeta_m};
   c.closes({-0.5, 1.0}, 0.3);
@@ -234,6 +234,7 @@ TEST(Verdict, APlainlyWrongLagIsNamedUnlessTheSpeedsAreNoLag) {
   c.weighs({0}, 1.0);
   Parameter omega_m, zeta_m;
   omega_m.name = "omega_m", omega_m.value = 30, omega_m.prior_value = 300, omega_m.prior_std = 15;
+  omega_m.std = 1;
   zeta_m.name = "zeta_m", zeta_m.value = 0.8;
   c.fitted = {omega_m, zeta_m};
   c.rival.gain[0] = 300.0;
@@ -242,6 +243,8 @@ TEST(Verdict, APlainlyWrongLagIsNamedUnlessTheSpeedsAreNoLag) {
   EXPECT_NE(seen.sentence.find("The motors are not what was stated"), std::string::npos) << seen.sentence;
   c.rival.sensors = {{"omega1", 30.0}, {"motors", 30.0}};  // slack between command and rotor
   EXPECT_EQ(c.judged().status, "unknown");
+  c.rival.sensors.clear(), c.fitted[0].value = 5000, c.fitted[0].std = 2500;  // faster than any row shows
+  EXPECT_EQ(c.judged().status, "unknown") << c.judged().sentence;
 }
 
 TEST(Verdict, ACauseWhoseModelCannotBeFlownIsNotNamed) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ident {
@@ -28,6 +29,14 @@ struct Parameter {
   std::optional<double> pull;         ///< (value - prior) over its standard deviation
   std::optional<double> from_flight;  ///< share of the information that came from the data, 0 to 1
   std::string note;                   ///< why not identifiable, in words
+  /// Not identifiable by itself, and yet of one model with what is: known together, they are stored together.
+  bool joint = false;
+
+  /// Nothing to be used, whatever its deviation says.
+  void doubt(std::string why) {
+    if (identifiable) note = std::move(why);
+    identifiable = joint = false;
+  }
 };
 
 /// A named finding; the text says what was seen and what to do about it.

@@ -35,11 +35,12 @@ bool is_hover(std::span<const Warning> findings) {
   return std::ranges::find(findings, "hover_only", &Warning::code) != findings.end();
 }
 
-std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants) {
+std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants, Held which) {
   std::vector<std::string> held;
   for (FreeConstant& c : constants) {
     if (!needs_motion(c.index)) continue;
     held.push_back(c.name);
+    if (which == Held::unstated && c.prior_std) continue;
     if (!c.prior_std) c.prior_value = c.start;
     c.prior_std = kHeld * c.prior_std.value_or(std::abs(c.unit()));
   }
@@ -58,7 +59,7 @@ void as_before_flight(std::vector<Parameter>& parameters, const std::vector<Free
     p.prior_std = before->prior_std, p.prior_value.reset(), p.pull.reset();
     if (before->prior_std) p.prior_value = before->prior_value;
     p.from_flight = 0.0;
-    p.identifiable = false;
+    p.doubt({});
     p.note = "held at what was known: these logs hold little more than hover";
   }
 }

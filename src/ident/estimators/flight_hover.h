@@ -13,9 +13,14 @@ namespace ident {
 /// Whether a self-test found little more than hover.
 bool is_hover(std::span<const Warning> findings);
 
-/// Holds the constants of motors and inertia, which no hover tells: free, they would be fitted to the noise
-/// of one initial transient. Gives their names.
-std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants);
+/// Of which constants of motors and inertia hover is not trusted to tell anything.
+enum class Held {
+  all,       ///< free, they would be fitted to the noise of one initial transient
+  unstated,  ///< only those: what is stated may be off by its deviation, and is no gap then
+};
+
+/// Holds them; gives the names of all that hover is not trusted with.
+std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants, Held which = Held::all);
 
 /// Says of the constants held what `constants`, as they were before, say of them: nothing comes from flight.
 void as_before_flight(std::vector<Parameter>& parameters, const std::vector<FreeConstant>& constants,

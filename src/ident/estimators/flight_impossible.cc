@@ -12,12 +12,12 @@ bool is_before_its_command(const Parameter& p) { return p.name == "dead_time" &&
 void doubt_negative_dead_time(Result& result) {
   const auto early = std::ranges::find_if(result.parameters, is_before_its_command);
   if (early == result.parameters.end()) return;
-  early->identifiable = false;
+  early->doubt({});
   early->note = "negative: no motor turns before its command";
   // What is early makes up for what else is late: motors that are too slow go with it.
   for (Parameter& p : result.parameters)
-    if ((p.name == "omega_m" || p.name == "zeta_m") && p.identifiable)
-      p.identifiable = false, p.note = "goes with a negative dead_time, which no motor has";
+    if (p.name == "omega_m" || p.name == "zeta_m")
+      p.doubt("goes with a negative dead_time, which no motor has");
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
   result.warn(
       "negative_dead_time",
@@ -30,8 +30,8 @@ void doubt_negative_rotor_inertia(Result& result) {
   const Parameter* Jp = result.find("Jp");
   if (!Jp || !(Jp->value + 2 * Jp->std < 0)) return;
   for (Parameter& p : result.parameters)
-    if ((p.name == "Jp" || p.name == "Jzz" || p.name == "kQ") && p.identifiable)
-      p.identifiable = false, p.note = "goes with a negative Jp, which no rotor has";
+    if (p.name == "Jp" || p.name == "Jzz" || p.name == "kQ")
+      p.doubt("goes with a negative Jp, which no rotor has");
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "rotor_inertia"; });  // says less
   result.warn("negative_rotor_inertia",
               "the vehicle turns with the rotors that speed up, not against them, and of yaw nothing certain "
@@ -43,8 +43,8 @@ void doubt_contradicted(Result& result) {
                                                               "dead_time", "Omega_0", "kQ",      "Jzz"};
   if (!result.has_warning("contradicted")) return;
   for (Parameter& p : result.parameters)
-    if (p.identifiable && std::ranges::find(kDepend, p.name) != kDepend.end())
-      p.identifiable = false, p.note = "depends on a constant that the logs contradict";
+    if (std::ranges::find(kDepend, p.name) != kDepend.end())
+      p.doubt("depends on a constant that the logs contradict");
 }
 
 }  // namespace ident

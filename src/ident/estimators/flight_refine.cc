@@ -33,6 +33,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
 
+constexpr double kMoved = 1e-6;  // of what was known
+
 nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
   nlohmann::ordered_json std = nlohmann::ordered_json::array(), time = std;
   for (const ColouredNoise& axis : noise) std.push_back(axis.sigma), time.push_back(axis.tau);
@@ -75,6 +77,9 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       const bool mostly_zero = c.index == param::dead_time || c.index == param::Omega_0;
       p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
     }
+    const bool told =
+        c.prior_std ? std::abs(p.value - c.prior_value) > kMoved * *c.prior_std : p.std < std::abs(p.value);
+    p.joint = !p.identifiable && told;
     if (!p.identifiable)
       p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
     out.push_back(p);

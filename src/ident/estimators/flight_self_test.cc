@@ -136,7 +136,7 @@ std::string disqualified(const std::vector<Warning>& warnings) {
 
 void distrust(Result& result, const std::string& wrong) {
   for (Parameter& parameter : result.parameters) {
-    parameter.identifiable = false;
+    parameter.doubt({});
     parameter.note = wrong;
   }
   result.verdict = wrong;

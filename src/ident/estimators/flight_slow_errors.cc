@@ -76,6 +76,29 @@ Array3d density_of(const FlightRecord& record, int group) {
   return sigma.square() * record.duration / std::max(samples, 1.0);
 }
 
+// What white noise e of the attitude adds to its stray, rad^2/s by axis. The stray is summed up in the body's
+// own frame, where errors of samples next to each other cancel but for w dt x e and e x e'/2: by log of
+// exp(-e) exp(w dt) exp(e') to second order.
+Array3d summed_noise(const FlightRecord& record) {
+  Array3d square = Array3d::Zero();
+  double rows = 0;
+  for (const FlightArc& arc : record.arcs)
+    for (std::size_t i = 0; i < arc.rows(); ++i) {
+      const Vector3d w = group_at(arc, i, kGyro);
+      if (w.allFinite()) square += w.array().square(), rows += 1;
+    }
+  const Array3d w2 = square / std::max(rows, 1.0), density = density_of(record, kAttitude);
+  const Array3d e2(std::pow(record.sigma[kAttitude], 2), std::pow(record.sigma[kAttitude + 1], 2),
+                   std::pow(record.sigma[kAttitude + 2], 2));
+  const double dt = density[0] / e2[0];  // between samples
+  Array3d out;
+  for (Index x = 0; x < 3; ++x) {
+    const Index y = (x + 1) % 3, z = (x + 2) % 3;
+    out[x] = w2[y] * density[z] + w2[z] * density[y] + e2[y] * e2[z] / (2 * dt);
+  }
+  return out;
+}
+
 // Whether white noise shows in what a group changes by from row to row: by itself second differences next to
 // each other are correlated by -2/3. Without, exact data, all sensors agree with each other's integral.
 bool is_noisy(const FlightRecord& record, int group) {
@@ -184,7 +207,7 @@ FoundSlowErrors slow_errors(const FlightRecord& record) {
   const auto strays = all_strays(record);
   if (logged.rates) {
     const std::vector<Stray>& all = strays[kShownAttitude];
-    found[kShownAttitude] = beyond(all, of_rates, kBeyondChance);
+    found[kShownAttitude] = beyond(all, of_rates + summed_noise(record), kBeyondChance);
     estimated = are_integrated(all, record, kGyro);
   }
   if (logged.force && logged.velocity) {

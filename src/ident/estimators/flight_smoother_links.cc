@@ -33,6 +33,15 @@ constexpr double kUnseenSpeed = 1e-3, kUnseenSpeeding = 1e-7;
 // Of four, where rates and forces are all that tells of them, and that may come ten times as slowly as motors
 // settle: 300 rad/s and 30000 rad/s^2, for thrust is no line over so much.
 constexpr double kHardlySeenSpeed = 1e-5, kHardlySeenSpeeding = 1e-9;
+// Of any other that was not measured, how its speed changed just before: by half of the usual speed in the
+// time of its lag. Of fast motors no row tells, and so much says nothing of the scale of speeds.
+constexpr double kOfItsSpeed = 0.5;
+
+double usual_speed(const FlightArc& arc, std::size_t rotor) {
+  double sum = 0;
+  for (const FlightState<double>& x : arc.start) sum += x.motors[rotor].Omega;
+  return sum / static_cast<double>(arc.start.size());
+}
 
 std::array<bool, kChannels> measured_in(const FlightArc& arc) {
   std::array<bool, kChannels> seen{};
@@ -58,10 +67,17 @@ VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
   assume(layout.v, kUnseenVelocity, kVelocity, kPosition);
   assume(layout.x, kUnseenPlace, kPosition, kPosition);
   const bool untold = layout.rotors > kAllTold, hardly = !untold && layout.attitude < 0;
+  const std::vector<double>& p = record_->p;
+  const double lag = 2 * p[param::zeta_m] / p[param::omega_m];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
-    if (seen[static_cast<std::size_t>(kRotorChannel + n)] || !(untold || hardly)) continue;
-    info[layout.motors + n] = untold ? kUnseenSpeed : kHardlySeenSpeed;
-    info[layout.motors + layout.rotors + n] = untold ? kUnseenSpeeding : kHardlySeenSpeeding;
+    if (seen[static_cast<std::size_t>(kRotorChannel + n)]) continue;
+    const int at = layout.motors + n;
+    if (untold || hardly) {
+      info[at] = untold ? kUnseenSpeed : kHardlySeenSpeed;
+      info[at + layout.rotors] = untold ? kUnseenSpeeding : kHardlySeenSpeeding;
+    } else if (const double speed = usual_speed(arc, static_cast<std::size_t>(n)); speed > 0) {
+      info[at + layout.rotors] = std::pow(lag / (kOfItsSpeed * speed), 2);
+    }
   }
   return info;
 }

@@ -77,8 +77,8 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, std::span<const
   static constexpr std::array<std::string_view, 12> kByThrust = {
       "m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"};
   for (Parameter& p : result.parameters)
-    if (p.identifiable && std::ranges::find(kByThrust, p.name) != kByThrust.end())
-      p.identifiable = false, p.note = "thrust as fitted is not what the vehicle felt";
+    if (std::ranges::find(kByThrust, p.name) != kByThrust.end())
+      p.doubt("thrust as fitted is not what the vehicle felt");
 }
 
 }  // namespace ident

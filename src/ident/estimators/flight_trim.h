@@ -22,6 +22,14 @@ constexpr double kShortestStretch = 2.0;
 /// From flight to flight the rotors of a vehicle that nobody touched scatter by some two per cent; a factor
 /// of e more or less is nothing unusual. The flights themselves decide where there are several.
 constexpr double kUsualScatter = 0.02;
+/// And by this what all of them thrust for a command, by the state of the battery.
+constexpr double kUsualLevel = 0.03;
+
+/// Standard deviations from flight to flight, relative, of thrust for the same command.
+struct TrimScatter {
+  double rotor = 0.0;  ///< of each rotor by itself
+  double level = 0.0;  ///< of all together
+};
 
 /// Some seconds of flight, after take-off and before landing.
 struct TrimStretch {
@@ -48,9 +56,9 @@ struct TrimFit {
   Eigen::VectorXd y;  ///< unbalance at the fit, [stretch][channel]
   Eigen::MatrixXd V;  ///< covariance of y where the model is right, scatter from flight to flight included
   Eigen::Vector4d noise;  ///< standard deviation of a stretch about the mean of its log
-  double scatter = 0.0;   ///< of each rotor's thrust for the same command from flight to flight, relative
-  double beyond = 0.0;    ///< cost of what logs differ by from the model and what is known of it, chi2 of
-                          ///< kTrimChannels for each log
+  TrimScatter scatter;
+  double beyond = 0.0;  ///< cost of what logs differ by from the model and what is known of it, chi2 of
+                        ///< kTrimChannels for each log
 };
 
 /// Whether logs hold neither rates nor attitude, and yet what balance needs: what the rotors do, and a path.
@@ -97,6 +105,6 @@ void verify_trim(Result& result, const FlightRecord& record, const std::vector<d
 
 /// The unbalance y that is left in each log.
 Section trim_section(const FlightRecord& record, const Trim& trim, const Eigen::VectorXd& y);
-std::string scatter_in_words(const Trim& trim, double scatter);
+std::string scatter_in_words(const Trim& trim, const TrimScatter& scatter);
 
 }  // namespace ident

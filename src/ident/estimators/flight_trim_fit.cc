@@ -32,14 +32,16 @@ MatrixXd ratio_slopes(const FlightRecord& record, const Trim& trim, const std::v
   return A;
 }
 
-MatrixXd covariance(const Trim& trim, const Eigen::Vector4d& noise, const MatrixXd& A, double scatter) {
+MatrixXd covariance(const Trim& trim, const Eigen::Vector4d& noise, const MatrixXd& A,
+                    const TrimScatter& scatter) {
   MatrixXd V = MatrixXd::Zero(trim.rows(), trim.rows());
+  const MatrixXd S = (scatter.rotor * scatter.rotor * MatrixXd::Identity(A.cols(), A.cols())).array() +
+                     scatter.level * scatter.level;
   for (std::size_t i = 0; i < trim.stretches.size(); ++i)
     for (std::size_t k = 0; k < trim.stretches.size(); ++k) {
       if (trim.stretches[i].log != trim.stretches[k].log) continue;
       const Index a = kTrimChannels * static_cast<Index>(i), b = kTrimChannels * static_cast<Index>(k);
-      V.block<4, 4>(a, b) =
-          scatter * scatter * A.middleRows<kTrimChannels>(a) * A.middleRows<kTrimChannels>(b).transpose();
+      V.block<4, 4>(a, b) = A.middleRows<kTrimChannels>(a) * S * A.middleRows<kTrimChannels>(b).transpose();
       if (i == k) V.block<4, 4>(a, b).diagonal() += noise.cwiseAbs2();
     }
   return V;
@@ -74,24 +76,30 @@ Eigen::Vector4d noise_of(const Trim& trim, const VectorXd& y) {
   return (about_means(trim, y).rowwise().squaredNorm() / degrees).cwiseSqrt().cwiseMax(kLeastNoise);
 }
 
-// Mean square over what the flights leave likely, everything that the constants may be taken out.
-double scatter_of(const Trim& trim, const VectorXd& y, const Eigen::Vector4d& noise, const MatrixXd& A,
-                  const MatrixXd& open) {
-  std::vector<double> s, weight;
-  for (double log_s = std::log(1e-3); log_s < std::log(0.3); log_s += 0.25) {
-    s.push_back(std::exp(log_s));
-    const Eigen::LLT<MatrixXd> llt(covariance(trim, noise, A, s.back()) + open);
-    const double usual = log_s - std::log(kUsualScatter);
-    weight.push_back(-llt.matrixLLT().diagonal().array().log().sum() - 0.5 * y.dot(llt.solve(y)) -
-                     0.5 * usual * usual);
-  }
+// Mean squares over what the flights leave likely, everything that the constants may be taken out. What all
+// rotors gain or lose together, as by the state of the battery, says nothing of how unlike they are.
+TrimScatter scatter_of(const Trim& trim, const VectorXd& y, const Eigen::Vector4d& noise, const MatrixXd& A,
+                       const MatrixXd& open) {
+  constexpr double kLeast = 1e-3, kMost = 0.3, kStep = 0.25, kStepOfLevel = 0.7;  // of logarithms
+  std::vector<TrimScatter> all;
+  std::vector<double> weight;
+  for (double rotor = std::log(kLeast); rotor < std::log(kMost); rotor += kStep)
+    for (double level = std::log(kLeast); level < std::log(kMost); level += kStepOfLevel) {
+      all.push_back({std::exp(rotor), std::exp(level)});
+      const Eigen::LLT<MatrixXd> llt(covariance(trim, noise, A, all.back()) + open);
+      const double usual = rotor - std::log(kUsualScatter), usual_level = level - std::log(kUsualLevel);
+      weight.push_back(-llt.matrixLLT().diagonal().array().log().sum() - 0.5 * y.dot(llt.solve(y)) -
+                       0.5 * usual * usual - 0.5 * usual_level * usual_level);
+    }
   const double top = std::ranges::max(weight);
-  double sum = 0, square = 0;
-  for (std::size_t i = 0; i < s.size(); ++i) {
+  double sum = 0;
+  TrimScatter square;
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const double w = std::exp(weight[i] - top);
-    sum += w, square += w * s[i] * s[i];
+    sum += w, square.rotor += w * all[i].rotor * all[i].rotor,
+        square.level += w * all[i].level * all[i].level;
   }
-  return std::sqrt(square / sum);
+  return {std::sqrt(square.rotor / sum), std::sqrt(square.level / sum)};
 }
 
 // Direction of the unknowns in which all rotors gain alike: it is held, not to be told from the constant. One
@@ -131,7 +139,7 @@ TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& thet
       const VectorXd priors = prior.slope.cwiseProduct(prior.residual) + common * common.dot(u);
       const VectorXd expected = out.y - Y * Eigen::LDLT<MatrixXd>(known).solve(priors);
       out.scatter = scatter_known && trim.logs < 2  // it is in their deviations
-                        ? 0.0
+                        ? TrimScatter{}
                         : scatter_of(trim, expected, out.noise, A,
                                      Y * Eigen::LDLT<MatrixXd>(known).solve(MatrixXd(Y.transpose())));
       out.V = covariance(trim, out.noise, A, out.scatter);

@@ -20,11 +20,15 @@ Warning without_turning() {
           "sensors cannot be seen; log rates or attitude"};
 }
 
-std::string scatter_in_words(const Trim& trim, double scatter) {
-  if (scatter == 0)
+std::string scatter_in_words(const Trim& trim, const TrimScatter& scatter) {
+  if (scatter.rotor == 0)
     return "What a rotor's thrust scatters by from flight to flight is in its deviation as stated.";
-  return fmt::format("From flight to flight the thrust of a rotor for a command scatters by {:.1f} %{}.",
-                     100 * scatter, trim.logs == 1 ? ", as is usual: one flight does not tell" : "");
+  return fmt::format(
+      "From flight to flight the thrust of a rotor for a command scatters by {:.1f} %, that of all together "
+      "by "
+      "{:.1f} %{}.",
+      100 * scatter.rotor, 100 * scatter.level,
+      trim.logs == 1 ? ", as is usual: one flight does not tell" : "");
 }
 
 Section trim_section(const FlightRecord& record, const Trim& trim, const VectorXd& y) {
@@ -80,16 +84,19 @@ void refine_trim(Result& result, const FlightRecord& record, const std::vector<d
   // What is written serves for the next flight, and that scatters too.
   for (int i = 0; i < theta.constants_count(); ++i)
     if (const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)]; is_rotor_ratio(c.name))
-      found.fit.covariance(i, i) += std::pow(std::max(found.scatter, kUsualScatter) / c.unit(), 2);
+      found.fit.covariance(i, i) += std::pow(std::max(found.scatter.rotor, kUsualScatter) / c.unit(), 2);
+    else if (c.index == param::kT)  // its logarithm
+      found.fit.covariance(i, i) += std::pow(std::max(found.scatter.level, kUsualLevel), 2);
   result.warnings.push_back(without_turning());
-  if (trim.logs == 1 && found.scatter > 0)
+  if (trim.logs == 1 && found.scatter.rotor > 0)
     result.warn("one_flight", fmt::format("how much the rotors' balance changes from flight to flight is not "
                                           "known from one: {:.0f} % is assumed; give several logs",
-                                          100 * found.scatter));
+                                          100 * found.scatter.rotor));
   result.parameters = flight_parameters(theta, found.fit, "flightlog");
   result.fit["seconds"] = record.duration;
   result.fit["stretches"] = trim.stretches.size();
-  result.fit["rotor_scatter"] = found.scatter;
+  result.fit["rotor_scatter"] = found.scatter.rotor;
+  result.fit["level_scatter"] = found.scatter.level;
   warn_about(result, theta, found.fit);
   result.sections.push_back(trim_section(record, trim, found.y));
   result.sections.back().text += " " + scatter_in_words(trim, found.scatter);

@@ -119,6 +119,31 @@ Json causes_tried(const SearchResult& search,
   return out;
 }
 
+std::vector<std::string> below_their_limit(const SearchResult& search, double times) {
+  std::vector<std::string> out;
+  const ExtendedProblem& base = search.base_problem;
+  const Theta& theta = *search.best.theta;
+  for (const Candidate& cause : search.best.adopted) {
+    const auto tried = std::ranges::find_if(base.candidates, [&](const Candidate& c) {
+      return c.name == cause.name && c.rotor == cause.rotor && c.parameter < 0;
+    });
+    if (tried == base.candidates.end()) continue;
+    double size = 0;
+    for (std::size_t d = 0; d < tried->directions.size(); ++d) {
+      const std::string& name = base.constants[static_cast<std::size_t>(tried->directions[d])].name;
+      const auto place = static_cast<int>(tried - base.candidates.begin());
+      const double limit = kSeen * deviation_of(search.base_form, base, place, static_cast<int>(d));
+      for (int i = 0; i < theta.constants_count(); ++i)
+        if (const FreeConstant& constant = theta.constants()[static_cast<std::size_t>(i)];
+            constant.name == name)
+          size +=
+              std::pow((theta.physical(search.best.fit.u, i) - value_without(cause, constant)) / limit, 2);
+    }
+    if (size > 0 && size < times * times) out.push_back(cause.name);
+  }
+  return out;
+}
+
 Json causes_not_tried(const SearchResult& search, const Vehicle& vehicle,
                       const std::vector<std::string>& exclude) {
   Json out = Json::array();

@@ -17,6 +17,9 @@ namespace ident {
 nlohmann::ordered_json causes_tried(const SearchResult& search,
                                     const std::function<GapClosed(const Candidate&)>& closed_alone);
 
+/// The effects found that are smaller than so many `times` what would have been seen of them.
+std::vector<std::string> below_their_limit(const SearchResult& search, double times);
+
 /// Effects of the catalogue that were not tried, each with the reason.
 nlohmann::ordered_json causes_not_tried(const SearchResult& search, const Vehicle& vehicle,
                                         const std::vector<std::string>& exclude);

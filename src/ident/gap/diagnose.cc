@@ -30,6 +30,7 @@
 #include "ident/gap/model_search.h"
 #include "ident/gap/out_of_balance.h"
 #include "ident/gap/residual_wrench.h"
+#include "ident/gap/trust.h"
 #include "ident/gap/verdict.h"
 
 namespace ident {
@@ -47,17 +48,6 @@ void require_known(const std::vector<std::string>& causes) {
   for (const std::string& cause : causes)
     if (std::ranges::find(known, cause) == known.end())
       throw UsageError(fmt::format("no cause '{}' to leave out{}", cause, did_you_mean(cause, known)));
-}
-
-// Probabilities are among the causes of the catalogue. Where those found are not named they are less than
-// that; a cause that is named all the same keeps its own.
-void trust_less(Json& candidates, const std::vector<std::string>& named) {
-  for (Json& c : candidates)
-    if (std::ranges::find(named, c["effect"].get<std::string>()) == named.end())
-      c["probability"] = Judged::kNearestIsThere * c["probability"].get<double>();
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Json& a, const Json& b) {
-    return a["probability"].get<double>() > b["probability"].get<double>();
-  });
 }
 
 // Hover tells that something is missing, not what.
@@ -80,7 +70,7 @@ void doubt_refused(std::vector<Parameter>& parameters, const SearchResult& searc
   for (Parameter& p : parameters)
     for (const Candidate& c : search.best.adopted) {
       if (c.name != "parameter:" + p.name && p.name.substr(0, p.name.find('.')) != c.name) continue;
-      p.identifiable = false;
+      p.doubt({});
       p.note = "of a cause that is not named";
     }
 }
@@ -168,7 +158,8 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
-  if (noisy_input) verdict = with_noisy_input(std::move(verdict), loose, gap);
+  if (noisy_input)
+    verdict = with_noisy_input(std::move(verdict), loose, below_their_limit(search, least_size(record)), gap);
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
   if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
@@ -189,6 +180,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   result.extra["candidates"] = causes_tried(search, closed_alone);
   if (verdict.refused) doubt_refused(result.parameters, search);
   if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
+  if (verdict.plain) trust_more(result.extra["candidates"], verdict.effects);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
   result.extra["gap"] = {{"before", number(gap.before)},
                          {"after", number(gap.after)},

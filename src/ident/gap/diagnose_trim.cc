@@ -263,7 +263,8 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
                          {"closed_ci95", {nullptr, nullptr}},
                          {"horizons", Json::array()}};
   result.extra["balance"] = {{"stretches", trim.stretches.size()},
-                             {"rotor_scatter", base.trim.scatter},
+                             {"rotor_scatter", base.trim.scatter.rotor},
+                             {"level_scatter", base.trim.scatter.level},
                              {"beyond", base.trim.beyond},
                              {"left", left.beyond},
                              {"by_chance", by_chance(trim, left)}};

@@ -13,6 +13,7 @@ namespace {
 
 // Share of a cause's size that may move, both in standard deviations, and what counts as moved at all.
 constexpr double kMovesBy = 0.25, kMoves = 1.0;
+constexpr double kAtTheFloor = 1.1;
 
 }  // namespace
 
@@ -35,7 +36,29 @@ std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eig
   return loose;
 }
 
-Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose, const GapClosed& gap) {
+double least_size(const FlightRecord& record) {
+  constexpr double kRows = 3.0, kTimes = 3.0;
+  const double lag = 2 * record.p[param::zeta_m] / record.p[param::omega_m];
+  return lag < kRows * record.interval ? kTimes : 1.0;
+}
+
+Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
+                        const std::vector<std::string>& small, const GapClosed& gap) {
+  const auto is_small = [&](const std::string& name) {
+    return std::ranges::find(small, name) != small.end();
+  };
+  if (!verdict.effects.empty() && std::ranges::all_of(verdict.effects, is_small) &&
+      gap.after < kAtTheFloor * gap.floor) {
+    const std::string all = fmt::format("{}", fmt::join(verdict.effects, " with "));
+    return {.status = "none",
+            .sentence = fmt::format(
+                "With its constants refitted the model explains these logs down to the noise. What is left "
+                "looks like {} of hardly a size that could be seen, and measured rotor speeds are the input "
+                "here: what "
+                "they do between their samples is as large. Log the commands too.",
+                all),
+            .refused = true};
+  }
   const auto depends = std::ranges::find_first_of(verdict.effects, loose);
   std::string against;
   if (depends != verdict.effects.end())

@@ -14,9 +14,15 @@ namespace ident {
 /// with the other smoothing, and is not in the model's covariance yet.
 std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eigen::VectorXd& moved);
 
+/// How many times the size that would have been seen a cause has to have where measured speeds are the input:
+/// more where motors are over with a change before some rows have passed, and no row shows how.
+double least_size(const FlightRecord& record);
+
 /// A verdict by measured speeds. None is named where one of those named is among the `loose` ones, as the
 /// rest was found beside it, nor where held-out flight is predicted no better with them: noise in an input
-/// makes a vehicle seem to respond less. What is unknown may all be noise.
-Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose, const GapClosed& gap);
+/// makes a vehicle seem to respond less. Those that are `small`, by least_size(), are not named: what speeds
+/// do between their samples is as large. What is unknown may all be noise.
+Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
+                        const std::vector<std::string>& small, const GapClosed& gap);
 
 }  // namespace ident

@@ -72,7 +72,7 @@ class Search {
     s_.tell(0.0, "the model as it is");
     std::vector<FreeConstant> base = free_constants(s_.vehicle, s_.p);
     if (!s_.record.signals.commands) leave_out_motors(base);
-    if (s_.options.hover) hold_for_hover(base);
+    if (s_.options.hover) hold_for_hover(base, Held::unstated);
     FlightFitOptions patient = s_.fit;  // there is no other base
     patient.most_steps = 0;
     s_.out.base = fitted(base, {}, s_.record, s_.p, patient);

@@ -199,6 +199,9 @@ const Parameter* plainly_wrong_lag(const SearchResult& search, const Rival& riva
   if (std::ranges::none_of(search.best.adopted, is_it) || omega_m == fitted.end() || zeta_m == fitted.end() ||
       !omega_m->prior_value)
     return nullptr;
+  // Motors may come out as much faster than any row could show.
+  constexpr double kCertain = 4.0;  // of its standard deviations
+  if (!(std::abs(omega_m->value - *omega_m->prior_value) > kCertain * omega_m->std)) return nullptr;
   const bool flies = 2 * zeta_m->value / omega_m->value < kSlowestLag && zeta_m->value > kLeastDamping;
   return flies && lag_beyond_physics(omega_m->value, *omega_m->prior_value) ? &*omega_m : nullptr;
 }
@@ -234,7 +237,7 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     return out;
   // What else is there, and whether it can be told, changes nothing of these.
   const std::string rest = std::exchange(out.sentence, {});
-  out.status = "identified", out.effects.clear(), out.confused_with.clear();
+  out.status = "identified", out.plain = true, out.effects.clear(), out.confused_with.clear();
   if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
   for (const PlainCause& cause : plain) {
     out.effects.push_back(cause.name);

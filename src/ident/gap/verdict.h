@@ -16,6 +16,8 @@ struct Judged {
   std::string status, sentence;
   std::vector<std::string> effects, confused_with;
   double remaining = kNaN;
+  /// What is named is there whatever else is; the rest is not explained.
+  bool plain = false;
   /// Causes were found and not named: something about them is not as it is with true ones. How often the
   /// nearest is there all the same, among flights of which that was known.
   bool refused = false;

@@ -31,8 +31,8 @@ void write_vehicle(const std::string& path, const Vehicle& vehicle);
 /// A vehicle with what a parameter file states in addition; the parameter file wins.
 Vehicle with_parameters(Vehicle vehicle, const Vehicle& found);
 
-/// The parameters that a result determines (identifiable, with a finite value and standard deviation, known
-/// to the file format) laid over what a parameter file stated before.
+/// The parameters that a result determines, by themselves or together (with a finite value and standard
+/// deviation, known to the file format), laid over what a parameter file stated before.
 Vehicle with_result(Vehicle before, const Result& result);
 
 }  // namespace ident

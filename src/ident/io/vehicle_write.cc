@@ -108,7 +108,8 @@ Vehicle with_parameters(Vehicle vehicle, const Vehicle& found) {
 
 Vehicle with_result(Vehicle before, const Result& result) {
   for (const Parameter& p : result.parameters) {
-    const bool known = p.identifiable && std::isfinite(p.value) && std::isfinite(p.std) && p.std > 0.0;
+    const bool known =
+        (p.identifiable || p.joint) && std::isfinite(p.value) && std::isfinite(p.std) && p.std > 0.0;
     if (!known || p.name == "g" || !(is_file_parameter(p.name) || p.name.find('@') != std::string::npos))
       continue;
     before.parameters[p.name] = {p.value, p.std};

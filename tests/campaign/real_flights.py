@@ -1,0 +1,154 @@
+#!/usr/bin/python3
+"""Refines and diagnoses recordings of real flights and prints data/REAL_FLIGHT.md.
+
+    tests/campaign/real_flights.py build/ident ../shared/data/flight > data/REAL_FLIGHT.md
+"""
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parents[2] / "data"
+
+HEAD = """# `ident flightlog --refine` and `ident gap` on real flights
+
+Recordings of others, read as they are through the maps of [maps](maps), against what a stranger knows of such vehicles
+([published](published): `crazyflie_arplab.yaml`, `crazyflie_21.yaml`). Made by
+
+    tests/campaign/real_flights.py build/ident {data} > data/REAL_FLIGHT.md
+
+The recordings are not part of the project; their origin and licences:
+
+| folder | what | source |
+|---|---|---|
+| `arplab_crazyflie` | a brushed Crazyflie, 1 kHz: commands, rates, specific force | Eschmann, Albani, Loianno, Data-Driven System Identification of Quadrotors Subject to Motor Delays; github arplaboratory/data-driven-system-identification 2d267dd, MIT |
+| `nanobench` | a Crazyflie 2.1 under motion capture, 100 Hz | Ullah, Baca; github syediu/nanobench-iros2026 0ae7d68, BSD-3-Clause |
+| `crazypad` | two Crazyflie 2.1, 100 Hz: commands and velocity, no rates; normal, and one blade cut | Masalimov et al., Data 2024, 9, 79; github AerialRoboticsUUST/CrazyPAD 5448265, MIT |
+
+Values with their 95 % intervals' half width; (..) where a flight does not determine them. The lag of the motors is `2 zeta_m/omega_m`.
+Prediction errors are those of held-out flight, in noise standard deviations, 0.1, 0.5 and 1 s ahead, of the model as stated and
+as refined. Codes are the warnings of the program that are not said of every log.
+"""
+
+COMMON = {"spikes", "correlated", "not_identifiable", "filter_lag", "filtered_noise"}
+SHOWN = (("kT", 1e8, 2), ("Jxx", 1e5, 2), ("Jyy", 1e5, 2), ("Jzz", 1e5, 2), ("Jp", 1e8, 1))
+
+
+def ident(program, *arguments):
+    done = subprocess.run([program, *map(str, arguments), "--json"], capture_output=True, text=True)
+    return (json.loads(done.stdout), "") if done.returncode == 0 else (None, done.stderr.strip())
+
+
+def entry(result, name, scale, digits):
+    p = result["parameters"].get(name)
+    if not p or p.get("std") is None:
+        return ""
+    text = f"{p['value'] * scale:.{digits}f} ± {1.96 * p['std'] * scale:.{digits}f}"
+    return text if p["identifiable"] else f"({text})"
+
+
+def codes(result):
+    return ", ".join(sorted({w["code"] for w in result["warnings"]} - COMMON))
+
+
+def refined(name, result, error):
+    if result is None:
+        return f"| {name} | refused: {error.replace('|', '/')} |" + " |" * 8
+    value = {k: p["value"] for k, p in result["parameters"].items()}
+    horizons = " ".join(f"{h['before']:.3g} → {h['after']:.3g}," for h in result.get("held_out") or
+                        result["fit"].get("held_out", [])).rstrip(",")
+    cells = [entry(result, *shown) for shown in SHOWN] + [f"{2e3 * value['zeta_m'] / value['omega_m']:.0f}"]
+    return f"| {name} | " + " | ".join(cells) + f" | {horizons} | {codes(result)} |"
+
+
+def refinement_head():
+    print("\n| flights | kT [1e-8 N s^2/rad^2] | Jxx | Jyy | Jzz [1e-5 kg m^2] | Jp [1e-8] | lag [ms] | predicts | codes |")
+    print("|---|---|---|---|---|---|---|---|---|")
+
+
+def diagnosed(name, result, error):
+    if result is None:
+        return f"| {name} | refused: {error.replace('|', '/')} | | |"
+    verdict = result["verdict"]
+    return f"| {name} | {verdict['status']} | {', '.join(verdict['effects'])} | {result['summary']} |"
+
+
+def diagnosis_head():
+    print("\n| flights | verdict | effects | in words |\n|---|---|---|---|")
+
+
+def arplab(program, data):
+    folder, vehicle = data / "arplab_crazyflie", HERE / "published" / "crazyflie_arplab.yaml"
+
+    def arguments(names):
+        maps = [word for n in names for word in ("--map", HERE / "maps" / f"arplab_crazyflie_{n}.yaml")]
+        return [folder / f"{n}.csv" for n in names] + maps + ["--vehicle", vehicle]
+
+    sets = [["log10", "log15", "log16"], ["log10"], ["log15"], ["log16"]]
+    results = [(" ".join(names), ident(program, "flightlog", *arguments(names), "--refine")) for names in sets]
+    print("\n## arplab_crazyflie")
+    refinement_head()
+    for name, result in results:
+        print(refined(name, *result))
+    print("\nPublished: lag about 70 ms, Jxx 1.03, Jyy 1.11, Jzz 1.95. Thrust of a rotor by command over the published curve,"
+          " with its standard deviation:\n")
+    print("| flights | command: thrust over the published |\n|---|---|")
+    for name, (result, _) in results:
+        curve = (result or {}).get("thrust_by_command") or (result or {"fit": {}})["fit"].get("thrust_by_command") or []
+        cells = []
+        for point in curve:
+            u = point["command"]
+            published = 0.02127 - 0.01118 * u + 0.12013 * u * u
+            cells.append(f"{u:.2f}: {point['thrust'] / published:.3f} ± {point['std'] / published:.3f}")
+        print(f"| {name} | {', '.join(cells) or 'none given'} |")
+    print("\nThe specific force in the mean of log10 is 1.013 g, and the published curve lifts 0.95 g there.")
+    diagnosis_head()
+    for names in sets[1:]:
+        print(diagnosed(" ".join(names), *ident(program, "gap", *arguments(names))))
+
+
+def nanobench(program, data):
+    flights = sorted((data / "nanobench").glob("*.csv"))
+    common = ["--map", HERE / "maps" / "nanobench_crazyflie.yaml",
+              "--vehicle", HERE / "published" / "crazyflie_21.yaml"]
+    print("\n## nanobench\n\nBy the description of the recordings thrust per squared duty varies by 27 % over the flights, by 7 % with the voltage.")
+    refinement_head()
+    for f in flights:
+        print(refined(f.stem, *ident(program, "flightlog", f, *common, "--refine")))
+    diagnosis_head()
+    for f in flights:
+        print(diagnosed(f.stem, *ident(program, "gap", f, *common)))
+    print(diagnosed("all seven", *ident(program, "gap", *flights, *common)))
+
+
+def crazypad(program, data):
+    folder, known = data / "crazypad", ["--map", HERE / "maps" / "crazypad_crazyflie.yaml"]
+    vehicle = HERE / "published" / "crazyflie_21.yaml"
+    print("\n## crazypad\n\nAgainst the model that two normal flights of the same vehicle give.")
+    diagnosis_head()
+    for one in ("E8", "E9"):
+        normal = sorted(folder.glob(f"m_normal_flight__{one}_*.csv"))
+        others = normal[2:] + sorted(folder.glob(f"m_cut_propeller_*__{one}_*.csv"))
+        with tempfile.TemporaryDirectory() as campaign:
+            names = ", ".join(json.dumps(str(f.resolve())) for f in normal[:2])
+            (Path(campaign) / "ident.yaml").write_text(
+                f"vehicle: {vehicle}\nparameters: parameters.yaml\nmap: {known[1]}\nlogs: [{names}]\n")
+            done = subprocess.run([str(Path(program).resolve()), "flightlog", "--refine"],
+                                  cwd=campaign, capture_output=True, text=True)
+            if done.returncode != 0:
+                sys.exit(done.stderr)
+            for f in others:
+                print(diagnosed(f.stem, *ident(program, "gap", f, *known, "--vehicle", vehicle, "--params",
+                                               Path(campaign) / "parameters.yaml")))
+
+
+def main(program, data):
+    print(HEAD.format(data=data).rstrip())
+    for part in (arplab, nanobench, crazypad):
+        part(program, Path(data))
+        sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
