@@ -247,6 +247,17 @@ TEST(Verdict, APlainlyWrongLagIsNamedUnlessTheSpeedsAreNoLag) {
   EXPECT_EQ(c.judged().status, "unknown") << c.judged().sentence;
 }
 
+TEST(Verdict, WhereNothingIsMissedNothingIsNamed) {
+  Case c({"motor_delay"}, {"motor_delay"});
+  c.weighs({0}, 1.0);
+  EXPECT_EQ(c.judged().effects, Names{"motor_delay"});
+  c.gap.before = 0.7, c.gap.after = 0.7, c.gap.floor = 1.0, c.gap.closed = std::nan("");
+  EXPECT_EQ(c.judged().status, "none");
+  EXPECT_TRUE(c.judged().effects.empty());
+  c.gap.before = 1.0;
+  EXPECT_EQ(c.judged().effects, Names{"motor_delay"});
+}
+
 TEST(Verdict, ACauseWhoseModelCannotBeFlownIsNotNamed) {
   Case c({"rotor_drag"}, {});
   c.search.ran_away = {"rotor_drag"};

@@ -14,6 +14,7 @@
 #include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_inertia.h"
 #include "ident/estimators/flight_input_doubt.h"
+#include "ident/estimators/flight_jitter.h"
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
@@ -211,6 +212,11 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
       fit_and_watch(vehicle, p, record, constants,
                     {.watched = watched, .also = options.free, .progress = options.progress}, result);
   const Theta& theta = *free;
+  if (const FeltJitter jitter = felt_jitter(record, theta, fit); jitter.matters()) {
+    Result by_speeds = refine_flight(vehicle, without_commands(logs), options);
+    by_speeds.warnings.push_back(jitter.warning());
+    return by_speeds;
+  }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);
   fit.covariance += moved * moved.transpose();

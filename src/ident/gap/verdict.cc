@@ -17,6 +17,10 @@
 namespace ident {
 namespace {
 
+// A gap of this share of the noise floor is none, whatever speaks for a cause of it: the floor is known to a
+// tenth.
+constexpr double kBelowFloor = 0.9;
+
 // A cause is identified with this probability, and one that stands in its place is told of from that on.
 constexpr double kSure = 0.9;
 constexpr double kTold = 0.05;
@@ -232,6 +236,13 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted) {
   Judged out = judge_all(search, gap, rival, lines, jumps, fitted);
+  if (!out.effects.empty() && gap.before < kBelowFloor * gap.floor)
+    return {.status = "none",
+            .sentence =
+                fmt::format("The model as given predicts held-out flight to within its noise: there is no "
+                            "gap. What speaks for {} is less than that.",
+                            fmt::join(out.effects, " with ")),
+            .refused = true};
   const std::vector<PlainCause> plain = plain_causes(search, rival, fitted);
   if (plain.empty() || out.status != "unknown" || (std::isfinite(gap.closed) && gap.ci95[1] < kMostRemains))
     return out;

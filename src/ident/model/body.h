@@ -132,6 +132,8 @@ class Body {
 
   /// Whether what the rotors give does not depend on how the body moves, and nothing else acts on it.
   bool plain() const { return plain_; }
+  /// Whether rotors have a momentum of their own.
+  bool spinning() const { return spinning_; }
 
   /// Equations (3) and (4) for a plain body but for the turning of the rotors' momentum.
   RotorSums<S> rotor_sums(std::span<const MotorState<S>> motors) const { return sums(motors, nullptr); }

@@ -85,9 +85,14 @@ class Flight {
 
   /// The same; `middle` is what a state within the step can be read off, its rate in steps of order 2 only.
   void step_on(FlightState<S>& x, double t, double h, BodyRate<S>& rate, StepMiddle<S>& middle) {
+    std::array<MotorState<S>, kMaxRotors> felt;  // half way, where that is not as the motors are
+    const bool averaged = body_.spinning() && is_fast(h);
+    if (averaged) felt = x.motors;
     advance_motors(x.motors, t, h / 2, middle.motors);
     advance_motors(middle.motors, t + h / 2, h / 2, x.motors);
-    const std::span<const MotorState<S>> mid(middle.motors.data(), rotors_), end(x.motors.data(), rotors_);
+    if (averaged) average_speeding(felt, middle.motors, x.motors, h);
+    const std::span<const MotorState<S>> mid(averaged ? felt.data() : middle.motors.data(), rotors_),
+        end(x.motors.data(), rotors_);
     if (body_.plain())
       runge_kutta(x, h, rate, body_.rotor_sums(mid), body_.rotor_sums(end), middle.rate);
     else
@@ -161,6 +166,24 @@ class Flight {
   static BodyState<S> moved(const BodyState<S>& x, const BodyRate<S>& k, double h) {
     return {sum(x.q_WB, h, k.q_dot), sum(x.w_B, h, k.w_dot_B), sum(x.v_W, h, k.v_dot_W),
             sum(x.x_W, h, k.x_dot_W)};
+  }
+
+  // Whether speeds may change otherwise within h seconds than a parabola through three of their rates.
+  bool is_fast(double h) const {
+    constexpr double kFast = 0.5;
+    const double omega_m = value(p_[param::omega_m]), zeta_m = value(p_[param::zeta_m]);
+    return h * omega_m * (zeta_m > 0.5 ? 2 * zeta_m : 1.0) > kFast;
+  }
+
+  // What turns the body as rotors speed up sums up to their change of speed. By Simpson's rule over the rates
+  // at the start, half way and at the end it does so with this rate half way. `felt`: at the start, then half
+  // way.
+  void average_speeding(std::array<MotorState<S>, kMaxRotors>& felt,
+                        const std::array<MotorState<S>, kMaxRotors>& middle,
+                        const std::array<MotorState<S>, kMaxRotors>& end, double h) const {
+    for (std::size_t n = 0; n < rotors_; ++n)
+      felt[n] = {middle[n].Omega,
+                 (1.5 / h) * (end[n].Omega - felt[n].Omega) - 0.25 * (felt[n].Omega_dot + end[n].Omega_dot)};
   }
 
   // x + h/6 (a + 2 b + 2 c + d)

@@ -1,0 +1,30 @@
+// Rotor speeds that change from row to row by themselves, and a vehicle that feels it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ident/core/result.h"
+#include "ident/data/flight_log.h"
+#include "ident/estimators/flight_fit.h"
+
+namespace ident {
+
+/// How much of what measured rotor speeds jitter by, beside the fit, the vehicle feels: 0 for noise of their
+/// sensor, 1 for speeds that are as measured.
+struct FeltJitter {
+  double share = 0.0, std = 0.0;
+
+  /// Whether most of it is real, beyond doubt: then commands do not tell what the rotors do from row to row,
+  /// and a fit that takes it for noise of the sensor makes the vehicle answer to less than there is.
+  bool matters() const { return share > 0.5 && share > 8 * std; }
+  Warning warning() const;
+};
+
+/// Nothing is felt where logs lack commands, rotor speeds or specific force.
+FeltJitter felt_jitter(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
+
+/// The logs with measured speeds as their input.
+std::vector<FlightLog> without_commands(std::span<const FlightLog> logs);
+
+}  // namespace ident
