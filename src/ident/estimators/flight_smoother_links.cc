@@ -33,8 +33,9 @@ constexpr double kUnseenSpeed = 1e-3, kUnseenSpeeding = 1e-7;
 // Of four, where rates and forces are all that tells of them, and that may come ten times as slowly as motors
 // settle: 300 rad/s and 30000 rad/s^2, for thrust is no line over so much.
 constexpr double kHardlySeenSpeed = 1e-5, kHardlySeenSpeeding = 1e-9;
-// Of any other that was not measured, how its speed changed just before: by half of the usual speed in the
-// time of its lag. Of fast motors no row tells, and so much says nothing of the scale of speeds.
+// Of any other that was not measured, and that is over with a change before the next row: how its speed
+// changed just before, by half of the usual speed in the time of its lag. No row tells, and so much says
+// nothing of the scale of speeds.
 constexpr double kOfItsSpeed = 0.5;
 
 double usual_speed(const FlightArc& arc, std::size_t rotor) {
@@ -69,13 +70,14 @@ VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
   const bool untold = layout.rotors > kAllTold, hardly = !untold && layout.attitude < 0;
   const std::vector<double>& p = record_->p;
   const double lag = 2 * p[param::zeta_m] / p[param::omega_m];
+  const bool fast = 2 * p[param::zeta_m] * p[param::omega_m] * record_->interval > 1;
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     if (seen[static_cast<std::size_t>(kRotorChannel + n)]) continue;
     const int at = layout.motors + n;
     if (untold || hardly) {
       info[at] = untold ? kUnseenSpeed : kHardlySeenSpeed;
       info[at + layout.rotors] = untold ? kUnseenSpeeding : kHardlySeenSpeeding;
-    } else if (const double speed = usual_speed(arc, static_cast<std::size_t>(n)); speed > 0) {
+    } else if (const double speed = fast ? usual_speed(arc, static_cast<std::size_t>(n)) : 0.0; speed > 0) {
       info[at + layout.rotors] = std::pow(lag / (kOfItsSpeed * speed), 2);
     }
   }
