@@ -70,6 +70,8 @@ FeltJitter felt_jitter(const FlightRecord& record, const Theta& theta, const Fli
   }
   if (n < 100 || !(xx > 0)) return out;
   out.share = xy / xx;
+  out.size =
+      std::sqrt(xx / (6 * n)) / record.vehicle->g;  // second differences of what is white have six times that
   // Neighbours share samples: some three rows tell as much as one.
   out.std = std::sqrt(std::max(yy - out.share * xy, 0.0) / (n / 3) / xx);
   return out;

@@ -14,10 +14,11 @@ namespace ident {
 /// sensor, 1 for speeds that are as measured.
 struct FeltJitter {
   double share = 0.0, std = 0.0;
+  double size = 0.0;  ///< standard deviation of that jitter's thrust, of the weight
 
   /// Whether most of it is real, beyond doubt: then commands do not tell what the rotors do from row to row,
   /// and a fit that takes it for noise of the sensor makes the vehicle answer to less than there is.
-  bool matters() const { return share > 0.5 && share > 8 * std; }
+  bool matters() const { return share > 0.5 && share > 8 * std && size > 2e-3; }
   Warning warning() const;
 };
 
