@@ -39,13 +39,19 @@ Vehicle known_vehicle(const Campaign& campaign, const std::vector<CampaignLog>& 
   if (refined == results.end() || !std::filesystem::exists(campaign.parameters))
     return campaign_vehicle(campaign);
   Vehicle found = read_vehicle(campaign.parameters), vehicle = read_vehicle(campaign.vehicle);
-  std::erase_if(found.parameters, [&](const auto& entry) {
-    const Parameter* p = refined->find(entry.first);
-    return p && p->value == entry.second.value;
-  });
+  // What was known before them, which may be what other logs told.
+  for (const Parameter& p : refined->parameters) {
+    const auto stored = found.parameters.find(p.name);
+    if (stored == found.parameters.end() || stored->second.value != p.value) continue;
+    if (p.prior_value && p.prior_std)
+      stored->second = {*p.prior_value, *p.prior_std};
+    else
+      found.parameters.erase(stored);
+  }
   for (const Result& result : results)
     if (std::ranges::find(kBench, result.command) != kBench.end()) vehicle = with_result(vehicle, result);
-  context.notices.push_back("priors: vehicle file and bench; the stored refinement used these logs already");
+  context.notices.push_back(
+      "priors: what was known before the stored refinement, which used these logs already");
   return with_parameters(vehicle, found);
 }
 

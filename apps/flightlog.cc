@@ -1,5 +1,6 @@
 // `ident flightlog`: a model against flight logs, verified as it is or refined.
 #include "flight_input.h"
+#include "ident/estimators/flight_jitter.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/estimators/simulation_residuals.h"
 
@@ -42,6 +43,7 @@ Outcome run(const Options& options, Context& context) {
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
   const bool simulated = !result.has_warning("no_turning");
+  if (result.has_warning("speeds_jitter")) input.logs = without_commands(input.logs);
   if (refine.shown != Shown::numbers && simulated) verify_too(result, input, options.horizon);
   if (input.campaign)
     context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));

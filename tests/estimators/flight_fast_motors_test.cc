@@ -11,7 +11,7 @@ namespace {
 // Close to first order, with a time constant of 5 ms; the second pole is that many times as fast.
 Vehicle fast(double zeta) {
   Vehicle v = testing::quad(0.0);
-  v.parameters.erase("Jp");  // what speeding up takes is not integrated that finely
+  v.parameters.erase("Jp");  // with it steps of a row are too long for a diagnosis, not for a simulation
   const double times = std::pow(zeta + std::sqrt(zeta * zeta - 1), 2);
   v.parameters["zeta_m"] = {zeta, {}};
   v.parameters["omega_m"] = {std::sqrt(times) / 0.005, {}};

@@ -10,7 +10,7 @@ namespace ident {
 namespace {
 
 // A log of rates and specific force whose rotors jump off what was simulated in every row, rad/s, as the
-// vehicle feels and the log shows but for the noise of its sensor.
+// vehicle feels along z and about x and y, and the log shows but for the noise of its sensor.
 FlightLog flown(const Vehicle& truth, double jumps, double sensor) {
   FlightLog log = testing::flight(truth, 200, 3, 30);
   log.q_WB = {}, log.v_W = {}, log.x_W = {};
@@ -48,6 +48,7 @@ TEST(Jitter, OfASensorIsNotFelt) {
   const FeltJitter seen = of(flown(testing::quad(), 0.0, 20.0));
   EXPECT_FALSE(seen.matters()) << seen.share << " +- " << seen.std;
   EXPECT_LT(std::abs(seen.share), 0.2);
+  EXPECT_GT(seen.std, 0.0);
   EXPECT_FALSE(of(testing::flight(testing::quad(), 200, 3, 30)).matters());
 }
 

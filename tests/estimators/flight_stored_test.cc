@@ -18,7 +18,7 @@ Vehicle feasible() {
 }
 
 // Of a log without rotor speeds only kT km^2 can be known, here to 0.2 %: each is left with half of its
-// deviation and more, and what was stated of them was 8 % off together.
+// deviation and more, and what was stated of them was 12 % off together.
 TEST(FlightStored, ConstantsThatAreKnownTogetherOnlyAreStoredTogether) {
   const Vehicle truth = feasible();
   Vehicle stated = truth;

@@ -68,10 +68,11 @@ TEST(InputSmoothing, AVerdictWithALooseCauseIsWithdrawnAndKeepsItsRivals) {
   Judged verdict{.status = "ambiguous", .effects = {"wind"}, .confused_with = {"payload"}};
   GapClosed gap;
   gap.before = 3, gap.after = 1;
-  const Judged kept = with_noisy_input(verdict, {"rotor_drag"}, {}, gap);  // which only carries the wind
+  const Judged kept =
+      with_noisy_input(verdict, {"rotor_drag"}, {}, gap, kNaN);  // which only carries the wind
   EXPECT_EQ(kept.status, "ambiguous");
   EXPECT_EQ(kept.effects, Names{"wind"});
-  const Judged withdrawn = with_noisy_input(verdict, {"rotor_drag", "wind"}, {}, gap);
+  const Judged withdrawn = with_noisy_input(verdict, {"rotor_drag", "wind"}, {}, gap, kNaN);
   EXPECT_EQ(withdrawn.status, "unknown");
   EXPECT_TRUE(withdrawn.effects.empty());
   EXPECT_TRUE(withdrawn.refused);
@@ -79,19 +80,20 @@ TEST(InputSmoothing, AVerdictWithALooseCauseIsWithdrawnAndKeepsItsRivals) {
   EXPECT_NE(withdrawn.sentence.find("the size of wind depends"), std::string::npos);
   EXPECT_NE(withdrawn.sentence.find("log the commands too"), std::string::npos);
   gap.after = 3.1;
-  EXPECT_EQ(with_noisy_input(verdict, {}, {}, gap).status, "unknown");
+  EXPECT_EQ(with_noisy_input(verdict, {}, {}, gap, kNaN).status, "unknown");
 }
 
 TEST(InputSmoothing, WhatIsTooSmallToBeSeenIsNotNamedWhereTheRestIsNoise) {
   const Judged verdict{.status = "identified", .effects = {"gyroscopic"}};
   GapClosed gap;
-  gap.before = 3, gap.after = 1.05, gap.floor = 1;
-  const Judged none = with_noisy_input(verdict, {}, {"gyroscopic"}, gap);
+  gap.before = 3, gap.after = 1.02, gap.floor = 1;
+  const Judged none = with_noisy_input(verdict, {}, {"gyroscopic"}, gap, 1.05);
   EXPECT_EQ(none.status, "none");
   EXPECT_TRUE(none.effects.empty());
-  EXPECT_EQ(with_noisy_input(verdict, {}, {"wind"}, gap).effects, Names{"gyroscopic"});
-  gap.after = 1.5;
-  EXPECT_EQ(with_noisy_input(verdict, {}, {"gyroscopic"}, gap).effects, Names{"gyroscopic"});
+  EXPECT_EQ(with_noisy_input(verdict, {}, {"wind"}, gap, 1.05).effects, Names{"gyroscopic"});
+  EXPECT_EQ(with_noisy_input(verdict, {}, {"gyroscopic"}, gap, 1.5).effects, Names{"gyroscopic"})
+      << "the constants alone leave more";
+  EXPECT_EQ(with_noisy_input(verdict, {}, {}, gap, kNaN).effects, Names{"gyroscopic"});
 }
 
 // Rotors that are over with a change before three rows have passed, by a file that says so.

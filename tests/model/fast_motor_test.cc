@@ -28,7 +28,7 @@ double yaw_rate(const Vehicle& vehicle, double h, int order) {
 }
 
 TEST(FastMotor, RotorsThatSpeedUpWithinAStepTurnTheBodyByAllOfIt) {
-  for (const double zeta : {1.0, 5.0, 50.0}) {
+  for (const double zeta : {5.0, 50.0}) {
     Vehicle vehicle = testing::quad(0.0);
     const double slow = zeta + std::sqrt(zeta * zeta - 1);  // of its pole: a time constant of 5 ms
     vehicle.parameters["zeta_m"] = {zeta, {}}, vehicle.parameters["omega_m"] = {slow / 0.005, {}};

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "ident/model/vehicle.h"
 
@@ -31,6 +33,13 @@ Warning FeltJitter::warning() const {
               100 * std::min(share, 1.0))};
 }
 
+bool may_do_without_commands(std::span<const FlightLog> logs, std::span<const std::string> free) {
+  static constexpr std::array<std::string_view, 5> kByCommands = {"km", "omega_m", "zeta_m", "dead_time",
+                                                                  "Omega_0"};
+  return std::ranges::all_of(logs, &FlightLog::has_rotor_speeds) &&
+         std::ranges::find_first_of(free, kByCommands) == free.end();
+}
+
 std::vector<FlightLog> without_commands(std::span<const FlightLog> logs) {
   std::vector<FlightLog> out(logs.begin(), logs.end());
   for (FlightLog& log : out) log.delta.clear();
@@ -44,7 +53,7 @@ FeltJitter felt_jitter(const FlightRecord& record, const Theta& theta, const Fli
   const auto residuals = fit.smoother->residuals();
   const auto& places = fit.smoother->chunks();
   const auto sigma = [&](int channel) { return fit.noise.sigma[static_cast<std::size_t>(channel)]; };
-  double xx = 0, xy = 0, yy = 0, n = 0;
+  double xx = 0, xy = 0, yy = 0, n = 0, next = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(places[k].arc)];
     std::vector<Row> rows(places[k].end - places[k].begin);
@@ -57,19 +66,23 @@ FeltJitter felt_jitter(const FlightRecord& record, const Theta& theta, const Fli
         const double a_z = axis_at(record.vehicle->rotors[rotor], p[param::alpha])[2];
         expected += a_z * 2 * y[channel] * r[channel] * sigma(channel);
       }
+      // (1)
       rows[i] = {p[param::kT] / p[param::m] * expected, r[kForce + 2] * sigma(kForce + 2)};
     }
+    double before = kNaN;
     for (std::size_t i = 2; i < rows.size(); ++i) {
       const auto second = [&](double Row::*of) {
         return rows[i].*of - 2 * rows[i - 1].*of + rows[i - 2].*of;
       };
       const double x = second(&Row::expected), y = second(&Row::seen);
+      if (std::isfinite(x * before)) next += x * before;
+      before = x;
       if (!std::isfinite(x) || !std::isfinite(y)) continue;
       xx += x * x, xy += x * y, yy += y * y, n += 1;
     }
   }
   if (n < 100 || !(xx > 0)) return out;
-  out.share = xy / xx;
+  out.share = xy / xx, out.neighbours = next / xx;
   out.size =
       std::sqrt(xx / (6 * n)) / record.vehicle->g;  // second differences of what is white have six times that
   // Neighbours share samples: some three rows tell as much as one.

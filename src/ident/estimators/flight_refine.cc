@@ -78,8 +78,8 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       const bool mostly_zero = c.index == param::dead_time || c.index == param::Omega_0;
       p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
     }
-    const bool told =
-        c.prior_std ? std::abs(p.value - c.prior_value) > kMoved * *c.prior_std : p.std < std::abs(p.value);
+    const bool told = c.prior_std ? std::abs(p.value - c.prior_value) > kMoved * *c.prior_std
+                                  : p.std < std::abs(p.value) && c.name.find('.') == std::string::npos;
     p.joint = !p.identifiable && told;
     if (!p.identifiable)
       p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
@@ -212,8 +212,11 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
       fit_and_watch(vehicle, p, record, constants,
                     {.watched = watched, .also = options.free, .progress = options.progress}, result);
   const Theta& theta = *free;
-  if (const FeltJitter jitter = felt_jitter(record, theta, fit); jitter.matters()) {
+  if (const FeltJitter jitter = felt_jitter(record, theta, fit);
+      jitter.matters() && may_do_without_commands(logs, options.free)) {
+    fit.smoother.reset();
     Result by_speeds = refine_flight(vehicle, without_commands(logs), options);
+    std::erase_if(by_speeds.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
     by_speeds.warnings.push_back(jitter.warning());
     return by_speeds;
   }

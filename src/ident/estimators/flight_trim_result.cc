@@ -82,11 +82,14 @@ void refine_trim(Result& result, const FlightRecord& record, const std::vector<d
   const Trim trim = make_trim(record, p);
   TrimFit found = fit_trim(record, trim, theta, true);
   // What is written serves for the next flight, and that scatters too.
+  const auto& all = theta.constants();
+  const std::string carries = std::ranges::find(all, "kT", &FreeConstant::name) != all.end() ? "kT" : "km";
   for (int i = 0; i < theta.constants_count(); ++i)
     if (const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)]; is_rotor_ratio(c.name))
       found.fit.covariance(i, i) += std::pow(std::max(found.scatter.rotor, kUsualScatter) / c.unit(), 2);
-    else if (c.index == param::kT)  // its logarithm
-      found.fit.covariance(i, i) += std::pow(std::max(found.scatter.level, kUsualLevel), 2);
+    else if (c.name == carries)  // its logarithm; thrust goes with the square of km
+      found.fit.covariance(i, i) +=
+          std::pow(std::max(found.scatter.level, kUsualLevel) / (carries == "kT" ? 1 : 2), 2);
   result.warnings.push_back(without_turning());
   if (trim.logs == 1 && found.scatter.rotor > 0)
     result.warn("one_flight", fmt::format("how much the rotors' balance changes from flight to flight is not "

@@ -22,8 +22,7 @@ class Periodograms {
   /// |transform|^2, summed over the stretches; entry k at frequency k/(length h), h the sampling interval.
   const std::vector<double>& power() const { return power_; }
   double count() const { return count_; }  ///< stretches
-  /// Sum of the squared window: white noise of variance s^2 has mean power s^2 times this in each entry but
-  /// the first and the last.
+  /// Sum of the squared window: white noise of variance s^2 has mean power s^2 times this in each entry.
   double weight() const { return weight_; }
 
  private:

@@ -129,6 +129,7 @@ std::vector<std::string> below_their_limit(const SearchResult& search, double ti
     });
     if (tried == base.candidates.end()) continue;
     double size = 0;
+    std::size_t known = 0;  // of its directions: a payload's are others to first order
     for (std::size_t d = 0; d < tried->directions.size(); ++d) {
       const std::string& name = base.constants[static_cast<std::size_t>(tried->directions[d])].name;
       const auto place = static_cast<int>(tried - base.candidates.begin());
@@ -136,10 +137,10 @@ std::vector<std::string> below_their_limit(const SearchResult& search, double ti
       for (int i = 0; i < theta.constants_count(); ++i)
         if (const FreeConstant& constant = theta.constants()[static_cast<std::size_t>(i)];
             constant.name == name)
-          size +=
-              std::pow((theta.physical(search.best.fit.u, i) - value_without(cause, constant)) / limit, 2);
+          known += 1, size += std::pow(
+                          (theta.physical(search.best.fit.u, i) - value_without(cause, constant)) / limit, 2);
     }
-    if (size > 0 && size < times * times) out.push_back(cause.name);
+    if (known == tried->directions.size() && size > 0 && size < times * times) out.push_back(cause.name);
   }
   return out;
 }

@@ -50,6 +50,15 @@ void require_known(const std::vector<std::string>& causes) {
       throw UsageError(fmt::format("no cause '{}' to leave out{}", cause, did_you_mean(cause, known)));
 }
 
+// What a model misses half a second ahead with its constants fitted to the first part of the flight.
+double refitted_error(const FittedModel& model, const FlightRecord& record, const FlightRecord& held_out,
+                      const NoiseModel& noise, PredictionOptions options) {
+  options.horizons = {0.5};
+  const Eigen::VectorXd u = fit_of_training(model.fit, record, *model.theta, kTrainingShare);
+  const auto windows = predict_windows(held_out, *model.theta, u, noise, options);
+  return gap_closed(windows[0], windows[0]).after;
+}
+
 // Hover tells that something is missing, not what.
 Judged in_hover(Judged verdict) {
   if (verdict.status == "none") return verdict;
@@ -158,8 +167,12 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
-  if (noisy_input)
-    verdict = with_noisy_input(std::move(verdict), loose, below_their_limit(search, least_size(record)), gap);
+  if (noisy_input) {
+    const std::vector<std::string> small = below_their_limit(search, least_size(record));
+    const double without =
+        small.empty() ? kNaN : refitted_error(search.base, record, held_out, noise, errors);
+    verdict = with_noisy_input(std::move(verdict), loose, small, gap, without);
+  }
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
   if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
@@ -242,7 +255,8 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   result.extra["signatures"] = to_json(evidence.signatures);
   result.sections = gap_sections(result.extra, before, after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise, vibration));
-  out.adopted = hover ? vehicle : adopted_vehicle(vehicle, search.best);
+  const bool none = verdict.status == "none";  // and nothing of a cause is written
+  out.adopted = hover ? vehicle : adopted_vehicle(vehicle, none ? search.base : search.best);
   return out;
 }
 

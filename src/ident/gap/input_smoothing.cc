@@ -43,12 +43,12 @@ double least_size(const FlightRecord& record) {
 }
 
 Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
-                        const std::vector<std::string>& small, const GapClosed& gap) {
+                        const std::vector<std::string>& small, const GapClosed& gap, double without) {
   const auto is_small = [&](const std::string& name) {
     return std::ranges::find(small, name) != small.end();
   };
   if (!verdict.effects.empty() && std::ranges::all_of(verdict.effects, is_small) &&
-      gap.after < kAtTheFloor * gap.floor) {
+      without < kAtTheFloor * gap.floor) {
     const std::string all = fmt::format("{}", fmt::join(verdict.effects, " with "));
     return {.status = "none",
             .sentence = fmt::format(

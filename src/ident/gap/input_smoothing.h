@@ -20,9 +20,10 @@ double least_size(const FlightRecord& record);
 
 /// A verdict by measured speeds. None is named where one of those named is among the `loose` ones, as the
 /// rest was found beside it, nor where held-out flight is predicted no better with them: noise in an input
-/// makes a vehicle seem to respond less. Those that are `small`, by least_size(), are not named: what speeds
-/// do between their samples is as large. What is unknown may all be noise.
+/// makes a vehicle seem to respond less. Those that are `small`, by least_size(), are not named where the
+/// constants alone, refitted, miss held-out flight by no more than the noise, `without`: what speeds do
+/// between their samples is as large. What is unknown may all be noise.
 Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
-                        const std::vector<std::string>& small, const GapClosed& gap);
+                        const std::vector<std::string>& small, const GapClosed& gap, double without);
 
 }  // namespace ident

@@ -17,8 +17,7 @@
 namespace ident {
 namespace {
 
-// A gap of this share of the noise floor is none, whatever speaks for a cause of it: the floor is known to a
-// tenth.
+// A gap of this share of the noise floor is none, and no cause of it is named: the floor is known to a tenth.
 constexpr double kBelowFloor = 0.9;
 
 // A cause is identified with this probability, and one that stands in its place is told of from that on.

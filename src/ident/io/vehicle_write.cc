@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/effects/catalogue.h"
 #include "ident/io/parameter_names.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/io/write_file.h"
@@ -110,8 +111,7 @@ Vehicle with_result(Vehicle before, const Result& result) {
   for (const Parameter& p : result.parameters) {
     const bool known =
         (p.identifiable || p.joint) && std::isfinite(p.value) && std::isfinite(p.std) && p.std > 0.0;
-    if (!known || p.name == "g" || !(is_file_parameter(p.name) || p.name.find('@') != std::string::npos))
-      continue;
+    if (!known || p.name == "g" || !(is_file_parameter(p.name) || find_parameter(p.name))) continue;
     before.parameters[p.name] = {p.value, p.std};
   }
   return before;
