@@ -15,14 +15,14 @@ namespace ident {
 struct FeltJitter {
   double share = 0.0, std = 0.0;
   double size = 0.0;  ///< standard deviation of that jitter's thrust, of the weight
-  /// Correlation of its second differences next to each other: -2/3 of what is white. What a wrong model
-  /// leaves is smoother.
+  /// Correlation of its second differences next to each other: -2/3 of what is white, -0.3 to -0.5 of jumps
+  /// that motors follow within some rows. What a wrong model leaves is smoother.
   double neighbours = 0.0;
 
   /// Whether most of it is real, beyond doubt: then commands do not tell what the rotors do from row to row,
   /// and a fit that takes it for noise of the sensor makes the vehicle answer to less than there is.
   bool matters() const {
-    return share > 0.5 && share < 1.5 && share > 8 * std && size > 2e-3 && neighbours < -0.45;
+    return share > 0.5 && share < 1.5 && share > 8 * std && size > 3e-3 && neighbours < -0.25;
   }
   Warning warning() const;
 };
