@@ -50,15 +50,6 @@ void require_known(const std::vector<std::string>& causes) {
       throw UsageError(fmt::format("no cause '{}' to leave out{}", cause, did_you_mean(cause, known)));
 }
 
-// What a model misses half a second ahead with its constants fitted to the first part of the flight.
-double refitted_error(const FittedModel& model, const FlightRecord& record, const FlightRecord& held_out,
-                      const NoiseModel& noise, PredictionOptions options) {
-  options.horizons = {0.5};
-  const Eigen::VectorXd u = fit_of_training(model.fit, record, *model.theta, kTrainingShare);
-  const auto windows = predict_windows(held_out, *model.theta, u, noise, options);
-  return gap_closed(windows[0], windows[0]).after;
-}
-
 // Hover tells that something is missing, not what.
 Judged in_hover(Judged verdict) {
   if (verdict.status == "none") return verdict;

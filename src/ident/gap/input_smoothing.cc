@@ -42,6 +42,14 @@ double least_size(const FlightRecord& record) {
   return lag < kRows * record.interval ? kTimes : 1.0;
 }
 
+double refitted_error(const FittedModel& model, const FlightRecord& record, const FlightRecord& held_out,
+                      const NoiseModel& noise, PredictionOptions options) {
+  options.horizons = {0.5};
+  const Eigen::VectorXd u = fit_of_training(model.fit, record, *model.theta, kTrainingShare);
+  const auto windows = predict_windows(held_out, *model.theta, u, noise, options);
+  return gap_closed(windows[0], windows[0]).after;
+}
+
 Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
                         const std::vector<std::string>& small, const GapClosed& gap, double without) {
   const auto is_small = [&](const std::string& name) {

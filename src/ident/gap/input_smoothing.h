@@ -18,6 +18,10 @@ std::vector<std::string> depend_on_smoothing(const FittedModel& model, const Eig
 /// more where motors are over with a change before some rows have passed, and no row shows how.
 double least_size(const FlightRecord& record);
 
+/// What a model misses half a second ahead of held-out flight with its constants fitted to the training part.
+double refitted_error(const FittedModel& model, const FlightRecord& record, const FlightRecord& held_out,
+                      const NoiseModel& noise, PredictionOptions options);
+
 /// A verdict by measured speeds. None is named where one of those named is among the `loose` ones, as the
 /// rest was found beside it, nor where held-out flight is predicted no better with them: noise in an input
 /// makes a vehicle seem to respond less. Those that are `small`, by least_size(), are not named where the
