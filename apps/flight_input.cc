@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -40,14 +41,19 @@ Vehicle known_vehicle(const Campaign& campaign, const std::vector<CampaignLog>& 
     return campaign_vehicle(campaign);
   Vehicle found = read_vehicle(campaign.parameters), vehicle = read_vehicle(campaign.vehicle);
   // What was known before them, which may be what other logs told.
+  std::set<std::string> restored;
   for (const Parameter& p : refined->parameters) {
     const auto stored = found.parameters.find(p.name);
     if (stored == found.parameters.end() || stored->second.value != p.value) continue;
+    restored.insert(p.name);
     if (p.prior_value && p.prior_std)
       stored->second = {*p.prior_value, *p.prior_std};
     else
       found.parameters.erase(stored);
   }
+  const auto is_restored = [&](const std::string& name) { return restored.contains(name); };
+  found.correlation = found.correlation.part([&](const std::string& name) { return !is_restored(name); })
+                          .beside(refined->prior_correlation.part(is_restored));
   for (const Result& result : results)
     if (std::ranges::find(kBench, result.command) != kBench.end()) vehicle = with_result(vehicle, result);
   context.notices.push_back(

@@ -4,7 +4,6 @@
 #include "command.h"
 #include "ident/io/campaign.h"
 #include "ident/io/vehicle_file.h"
-#include "ident/report/campaign_report.h"
 
 namespace ident::app {
 namespace {
@@ -22,16 +21,6 @@ Vehicle named_vehicle(const Options& options, Context& context) {
   return with_parameters(read_vehicle(options.vehicle), found);
 }
 
-/// Correlation of kT and kQ where the campaign's last thrust fit found the values that the vehicle has.
-double stored_correlation(const Vehicle& vehicle) {
-  for (const Result& result : stored_results(".")) {
-    const Parameter *kT = result.find("kT"), *kQ = result.find("kQ");
-    if (result.command != "thrust" || !kT || !kQ || result.correlation.rows() != 2) continue;
-    if (kT->value == vehicle.value("kT") && kQ->value == vehicle.value("kQ")) return result.correlation(0, 1);
-  }
-  return SlantOptions{}.correlation;
-}
-
 Outcome run(const Options& options, Context& context) {
   if (!options.vehicle.empty() || !options.params.empty()) {
     return estimate_slant(named_vehicle(options, context));
@@ -39,8 +28,7 @@ Outcome run(const Options& options, Context& context) {
   const std::optional<Campaign> campaign = find_campaign();
   if (!campaign) throw UsageError("name a vehicle with --vehicle: there is no ident.yaml in this folder");
   context.used.insert(context.used.end(), {campaign->file, campaign->vehicle, campaign->parameters});
-  const Vehicle vehicle = campaign_vehicle(*campaign);
-  const Result result = estimate_slant(vehicle, {.correlation = stored_correlation(vehicle)});
+  const Result result = estimate_slant(campaign_vehicle(*campaign));
   context.outputs.add(campaign->parameters, updated_parameters(*campaign, result));
   return result;
 }

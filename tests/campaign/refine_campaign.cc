@@ -110,6 +110,7 @@ int main(int argc, char** argv) {
       {"still-silent", {.silent = true}},
       {"gusts-silent", {.turbulence = true, .silent = true, .by_gyro = true}},
       {"gusts-drift", {.turbulence = true, .drift = 0.004}},
+      {"gusts-one-by-one", {.turbulence = true, .by_gyro = true, .one_by_one = true}},
       {"gusts-filter", {.turbulence = true, .filter = true}},
       {"gusts-shaken", {.turbulence = true, .shaken = 2.0}},
       {"still-speeds", {.commands = false}},
@@ -119,7 +120,9 @@ int main(int argc, char** argv) {
     fmt::print(
         stderr,
         "usage: refine_campaign COUNT KIND FILE [FIRST_SEED [JOBS]]\n\n"
-        "KIND: still, gusts; gusts-gyro with a controller that flies by the gyro of the log; still-silent, "
+        "KIND: still, gusts; gusts-gyro with a controller that flies by the gyro of the log, "
+        "gusts-one-by-one "
+        "with the same logs one after the other; still-silent, "
         "gusts-silent where nobody states Jp and a dead time; gusts-drift with an attitude that drifts, "
         "gusts-filter "
         "with what a filter shows; gusts-shaken with an IMU that feels the rotors; still-speeds, "

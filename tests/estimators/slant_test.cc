@@ -90,6 +90,18 @@ TEST(Slant, StandardDeviationIsThatOfSampledConstants) {
   }
 }
 
+// A flight knows kQ/kT better than either.
+TEST(Slant, ConstantsThatAreKnownTogetherTellTheAngleBetter) {
+  Vehicle v = slanted_vehicle(6e-6, 5.15e-8, 0.17);
+  const auto relative = [&] {
+    const Parameter alpha = estimate_slant(v).parameters.front();
+    return alpha.std * 2 / std::sin(2 * alpha.value);
+  };
+  EXPECT_NEAR(relative(), std::hypot(0.01, 0.02), 1e-12);
+  v.correlation = {{"kT", "kQ"}, Eigen::Matrix2d{{1, 0.99}, {0.99, 1}}};
+  EXPECT_NEAR(relative(), std::sqrt(0.01 * 0.01 + 0.02 * 0.02 - 2 * 0.99 * 0.01 * 0.02), 1e-12);
+}
+
 // Yaw leak 4 kQ/kT - 2 l tan(a + e), authority 2 l tan(a + e): the ratio is 1 - tan(a)/tan(a + e).
 TEST(Slant, UprightRotorsThatTurnAlikeHaveNoYawInputAndNoInfiniteNumber) {
   Vehicle vehicle = slanted_vehicle(6e-6, 5.15e-8, 0.17);

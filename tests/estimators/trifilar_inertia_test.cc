@@ -131,6 +131,9 @@ TEST(Inertia, PropagatesTheStatedDeviationOfAPeriod) {
   const double hanging = 2 * (5.5e-3 + 0.003) / rows[2].period * 1e-3,
                platform = 2 * 0.003 / rows[3].period * 1e-3;
   EXPECT_NEAR(result.find("Jzz")->std, std::hypot(hanging, platform), 1e-9);
+  // The platform's is the same in all of them.
+  const double common = platform * platform / (result.find("Jzz")->std * result.find("Jxx")->std);
+  EXPECT_NEAR(result.correlation.of("Jxx", "Jzz"), common, 1e-6);
   EXPECT_FALSE(result.has_warning("no_repeats"));
 }
 

@@ -12,8 +12,7 @@ TEST(ReportOrder, CorrelationStandsBeforeProfilesAndHeldOutFlight) {
   result.sections = {{.title = "Fit to the log"},
                      {.title = "Profile likelihood of weak parameters"},
                      {.title = "Held-out prediction"}};
-  result.correlation = Eigen::MatrixXd::Identity(2, 2);
-  result.correlation_names = {"kT", "km"};
+  result.correlation = {{"kT", "km"}, Eigen::MatrixXd::Identity(2, 2)};
   for (const std::string& page : {render_html(result), render_markdown(result)}) {
     // The last of each: a page names its headings in its contents first.
     const auto fit = page.rfind("Fit to the log"), correlation = page.rfind("Correlation"),

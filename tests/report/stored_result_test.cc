@@ -37,8 +37,8 @@ Result full_result() {
   plot.cells = Eigen::MatrixXd{{1, 2, 3}, {4, kNaN, 6}};
   plot.row_names = {"a", "b"};
   r.sections = {{.title = "s", .text = "x", .tables = {{"t", {"c"}, {{"1"}, {}}}}, .plots = {plot}}};
-  r.correlation_names = {"kT", "kQ"};
-  r.correlation = Eigen::MatrixXd{{1, 0.5}, {0.5, 1}};
+  r.correlation = {{"kT", "kQ"}, Eigen::MatrixXd{{1, 0.5}, {0.5, 1}}};
+  r.prior_correlation = {{"kT", "km"}, Eigen::MatrixXd{{1, -0.9}, {-0.9, 1}}};
   r.files = {{"a.csv", "00ff"}};
   r.command_line = {"ident", "flightlog", "a b.csv"};
   r.seed = 18446744073709551615ULL;

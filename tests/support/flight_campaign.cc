@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/estimators/flight_refine.h"
+#include "ident/io/vehicle_file.h"
 #include "support/random_vehicle.h"
 #include "support/shaken.h"
 #include "support/slow_errors.h"
@@ -158,7 +159,8 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   c.stated = measured(c.truth, random);
   c.rotor_speeds = random.below(4) != 0 || !options.commands;
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
-  c.drift.sigma = options.drift, c.filter = options.filter, c.shaken = options.shaken;
+  c.drift.sigma = options.drift, c.filter = options.filter, c.shaken = options.shaken,
+  c.one_by_one = options.one_by_one;
   c.by_gyro = options.by_gyro, c.silent = options.silent;
   if (c.silent) c.stated.parameters.erase("dead_time"), c.stated.parameters.erase("Jp");
   c.scenarios = {"mixed", second[static_cast<std::size_t>(random.below(4))]};
@@ -190,7 +192,7 @@ std::vector<std::pair<std::string, double>> bounds(const Case& c) {
   smoother.set_states(true_states(c, smoother));
   const VectorXd u = VectorXd::Zero(theta.size());
   MatrixXd H = smoother.linearize(u).S;
-  H.diagonal() += theta.prior(u).slope.cwiseAbs2();
+  H += theta.prior(u).information();
   const VectorXd s = H.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
   const MatrixXd covariance =
@@ -209,7 +211,15 @@ Outcome refine_case(const Case& c) {
   const auto begin = std::chrono::steady_clock::now();
   Result result;
   try {
-    result = refine_flight(c.stated, logs, {.validate = false});
+    if (!c.one_by_one) {
+      result = refine_flight(c.stated, logs, {.validate = false});
+    } else {
+      Vehicle known = c.stated;
+      for (const FlightLog& log : logs) {
+        result = refine_flight(known, std::span(&log, 1), {.validate = false});
+        known = with_parameters(known, with_result({}, result));
+      }
+    }
   } catch (const std::exception& e) {
     outcome.failure = e.what();
     return outcome;
@@ -223,16 +233,17 @@ Outcome refine_case(const Case& c) {
       continue;
     }
     const double truth = c.truth.value(p.name), error = std::abs(p.value - truth);
+    const std::optional<double> stated = c.one_by_one ? c.stated.parameters.at(p.name).std : p.prior_std;
     outcome.estimates.push_back({.name = p.name,
                                  .truth = truth,
                                  .value = p.value,
                                  .std = p.std,
                                  .naive_std = p.naive_std.value_or(p.std),
-                                 .prior_std = p.prior_std.value_or(kNaN),
+                                 .prior_std = stated.value_or(kNaN),
                                  .bound = b->second,
                                  .inside = p.ci95[0] <= truth && truth <= p.ci95[1],
                                  .inside_naive = error < 1.96 * p.naive_std.value_or(p.std),
-                                 .identifiable = p.identifiable});
+                                 .identifiable = c.one_by_one ? p.std < 0.5 * *stated : p.identifiable});
   }
   for (const auto& [name, b] : bound)
     if (std::ranges::find(result.parameters, name, &Parameter::name) == result.parameters.end())

@@ -222,11 +222,10 @@ Result sample_parameter_result() {
        .text = "",
        .plots = {rates("p", "Roll rate", 2, noise), rates("q", "Roll rate, second flight", 3, noise)}},
       {.title = "Thrust", .text = "", .plots = {thrust_fit(noise), histogram(noise), spectrum(noise)}}};
-  r.correlation_names = {"kT", "kQ", "km", "omega_m", "Jxx", "Jyy", "Jzz"};
-  r.correlation = Eigen::MatrixXd::Identity(7, 7);
-  r.correlation(1, 6) = r.correlation(6, 1) = 0.98;
-  r.correlation(0, 2) = r.correlation(2, 0) = -0.64;
-  r.correlation(4, 5) = r.correlation(5, 4) = 0.21;
+  r.correlation = {{"kT", "kQ", "km", "omega_m", "Jxx", "Jyy", "Jzz"}, Eigen::MatrixXd::Identity(7, 7)};
+  r.correlation.matrix(1, 6) = r.correlation.matrix(6, 1) = 0.98;
+  r.correlation.matrix(0, 2) = r.correlation.matrix(2, 0) = -0.64;
+  r.correlation.matrix(4, 5) = r.correlation.matrix(5, 4) = 0.21;
   add_origin(r);
   return r;
 }

@@ -18,7 +18,8 @@ inline Standing standing_by_hand(const std::vector<std::string>& names, const Ei
   const auto n = static_cast<Eigen::Index>(names.size());
   out.form.S = S.asDiagonal();
   out.form.g = -S.cwiseProduct(at);
-  out.form.prior_g = out.form.prior_info = out.form.null = Eigen::VectorXd::Zero(n);
+  out.form.null = Eigen::VectorXd::Zero(n);
+  out.form.prior = {Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
   out.form.base = 1, out.form.constants = static_cast<int>(n);
   return out;
 }

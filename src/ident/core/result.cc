@@ -50,15 +50,15 @@ Json to_json(const Result& result) {
   Json warnings = Json::array();
   for (const Warning& w : result.warnings) warnings.push_back({{"code", w.code}, {"message", w.message}});
   j["warnings"] = warnings;
-  if (result.correlation.size() > 0) {
+  if (!result.correlation.empty()) {
     Json rows = Json::array();
-    for (Eigen::Index i = 0; i < result.correlation.rows(); ++i) {
+    for (Eigen::Index i = 0; i < result.correlation.matrix.rows(); ++i) {
       Json row = Json::array();
-      for (Eigen::Index k = 0; k < result.correlation.cols(); ++k)
-        row.push_back(number(result.correlation(i, k)));
+      for (Eigen::Index k = 0; k < result.correlation.matrix.cols(); ++k)
+        row.push_back(number(result.correlation.matrix(i, k)));
       rows.push_back(row);
     }
-    j["correlation"] = {{"names", result.correlation_names}, {"matrix", rows}};
+    j["correlation"] = {{"names", result.correlation.names}, {"matrix", rows}};
   }
   if (!result.verdict.empty()) j["summary"] = result.verdict;
   if (result.seed) j["seed"] = *result.seed;

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "ident/core/correlation.h"
+
 namespace ident {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -99,8 +101,8 @@ struct Result {
   nlohmann::ordered_json extra = nlohmann::ordered_json::object();  ///< merged into the top level
   std::string verdict;                                              ///< plain words, one paragraph
   std::vector<Section> sections;
-  std::vector<std::string> correlation_names;
-  Eigen::MatrixXd correlation;
+  Correlation correlation;        ///< of the estimates
+  Correlation prior_correlation;  ///< of what was known of them before
   std::vector<InputFile> files;
   std::vector<std::string> command_line;
   std::optional<std::uint64_t> seed;

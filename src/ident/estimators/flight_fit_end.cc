@@ -85,7 +85,7 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
       smoother.accept();
     }
   }
-  fit.cost = smoother.reduced().cost + theta.prior(fit.u).residual.squaredNorm();
+  fit.cost = smoother.reduced().cost + theta.prior(fit.u).cost();
   fit.information = smoother.reduced().S;
   const MatrixXd prior = prior_information(theta, fit.u);
   fit.naive_covariance = inverse_of(fit.information + prior);
@@ -103,7 +103,7 @@ VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const
                          double training_share) {
   const PriorTerms prior = theta.prior(fit.u);
   MatrixXd H = prior_information(theta, fit.u);
-  VectorXd g = prior.slope.cwiseProduct(prior.residual);
+  VectorXd g = prior.gradient();
   for (const ScoreBlock& block : fit.blocks)
     if (block.to <= training_end(record.arcs[static_cast<std::size_t>(block.arc)], training_share))
       H += block.information, g += block.score;
@@ -112,14 +112,14 @@ VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const
 
 MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws) {
   const PriorTerms prior = theta.prior(fit.u);
-  const MatrixXd own = prior_information(theta, fit.u);
+  const MatrixXd own = prior_information(theta, fit.u), known = prior.root();
   const auto n = static_cast<int>(fit.blocks.size());
   Random random(20240229);
   MatrixXd sum = MatrixXd::Zero(own.rows(), own.cols());
   for (int draw = 0; draw < draws; ++draw) {
     MatrixXd H = own;
-    VectorXd g = prior.slope.cwiseProduct(prior.residual);
-    for (Eigen::Index i = 0; i < g.size(); ++i) g[i] += prior.slope[i] * random.normal();
+    VectorXd g = prior.gradient();
+    g += known.transpose() * VectorXd::NullaryExpr(g.size(), [&](Eigen::Index) { return random.normal(); });
     for (int b = 0; b < n; ++b) {
       const ScoreBlock& block = fit.blocks[static_cast<std::size_t>(random.below(n))];
       H += block.information, g += block.score;

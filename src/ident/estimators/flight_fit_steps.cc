@@ -67,10 +67,10 @@ class SharedResiduals {
     const PriorTerms prior = theta.prior(u);
     r.head(n) = f.r;
     r[n] = std::sqrt(std::max(system.cost - f.r.squaredNorm(), 0.0));
-    r.tail(n) = prior.residual;
+    r.tail(n) = prior.whitened();
     if (J) {
       J->topRows(n) = f.F;
-      J->bottomRows(n) = MatrixXd(prior.slope.asDiagonal());
+      J->bottomRows(n) = prior.root();
     }
     return true;
   }
@@ -104,7 +104,7 @@ double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough, 
     step = taken ? further : newton_step(smoother, at.u);
     if (!taken) break;
   }
-  at.cost = smoother.reduced().cost + smoother.theta().prior(at.u).residual.squaredNorm();
+  at.cost = smoother.reduced().cost + smoother.theta().prior(at.u).cost();
   return step.fall;
 }
 
@@ -130,12 +130,12 @@ double samples_of(const FlightRecord& record) {
 }
 
 MatrixXd prior_information(const Theta& theta, const VectorXd& u) {
-  const VectorXd slope = theta.prior(u).slope;
+  const PriorTerms prior = theta.prior(u);
   // Without any prior a factor of e is allowed per standard deviation.
-  VectorXd info = slope.cwiseAbs2();
+  MatrixXd info = prior.information();
   for (int i = 0; i < theta.size(); ++i)
-    if (slope[i] == 0) info[i] = 1e-2;
-  return info.asDiagonal();
+    if (prior.slope[i] == 0) info(i, i) = 1e-2;
+  return info;
 }
 
 MatrixXd inverse_of(const MatrixXd& M) {
@@ -148,7 +148,7 @@ MatrixXd inverse_of(const MatrixXd& M) {
 NewtonStep newton_step(const FlightSmoother& smoother, const VectorXd& u) {
   const ReducedSystem& system = smoother.reduced();
   const PriorTerms prior = smoother.theta().prior(u);
-  const VectorXd g = system.g + prior.slope.cwiseProduct(prior.residual);
+  const VectorXd g = system.g + prior.gradient();
   const VectorXd du = -inverse_of(system.S + prior_information(smoother.theta(), u)) * g;
   return {du, -g.dot(du)};
 }

@@ -34,7 +34,7 @@ struct WithoutLog {
 WithoutLog without(const FlightRecord& record, const Theta& theta, const FlightFit& fit, int log) {
   const PriorTerms prior = theta.prior(fit.u);
   MatrixXd H = prior_information(theta, fit.u);
-  VectorXd g = prior.slope.cwiseProduct(prior.residual);
+  VectorXd g = prior.gradient();
   for (const ScoreBlock& block : fit.blocks)
     if (record.arcs[static_cast<std::size_t>(block.arc)].log != log) H += block.information, g += block.score;
   const MatrixXd covariance = inverse_of(H);
@@ -51,7 +51,7 @@ WithoutLog without(const FlightRecord& record, const Theta& theta, const FlightF
     told += 1, thrust |= is_of_thrust(c.index);
   }
   out.beyond_doubt = told >= kFew && thrust;
-  out.from_stated = (prior.residual + prior.slope.cwiseProduct(step)).squaredNorm();
+  out.from_stated = prior.cost_after(step);
   return out;
 }
 

@@ -21,17 +21,16 @@ constexpr double kFurthest = 0.5;
 constexpr double kMuchToGain = 0.3;  // of twice the log likelihood, for which a further evaluation is made
 
 double cost_with_priors(const ReducedSystem& system, const Theta& theta, const VectorXd& u) {
-  return system.cost + theta.prior(u).residual.squaredNorm();
+  return system.cost + theta.prior(u).cost();
 }
 
 // The best of all others near u, with `held` where it is.
 VectorXd newton_step(const ReducedSystem& system, const Theta& theta, const VectorXd& u, Index held) {
   const PriorTerms prior = theta.prior(u);
-  MatrixXd H = system.S;
-  H.diagonal() += prior.slope.cwiseAbs2();
+  MatrixXd H = system.S + prior.information();
   for (Index i = 0; i < u.size(); ++i)
     if (prior.slope[i] == 0) H(i, i) += 1e-2;
-  VectorXd g = system.g + prior.slope.cwiseProduct(prior.residual);
+  VectorXd g = system.g + prior.gradient();
   H.row(held).setZero(), H.col(held).setZero();
   H(held, held) = 1, g[held] = 0;
   const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -45,8 +44,8 @@ double profiled_cost(FlightSmoother& smoother, const Theta& theta, const VectorX
   if (!std::isfinite(first.cost) || !first.S.allFinite()) return kNaN;
   const VectorXd better = newton_step(first, theta, start, held), step = better - start;
   const double at_start = cost_with_priors(first, theta, start);
-  const double promised = first.cost + 2 * first.g.dot(step) + step.dot(first.S * step) +
-                          theta.prior(better).residual.squaredNorm();
+  const double promised =
+      first.cost + 2 * first.g.dot(step) + step.dot(first.S * step) + theta.prior(better).cost();
   if (at_start - promised < kMuchToGain) return promised;
   const ReducedSystem second = smoother.linearize(better);
   return std::isfinite(second.cost) ? std::min(at_start, cost_with_priors(second, theta, better)) : at_start;

@@ -88,6 +88,18 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
   return out;
 }
 
+Correlation flight_correlation(const Theta& theta, const Eigen::MatrixXd& covariance) {
+  Correlation out;
+  std::vector<Eigen::Index> at;
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    if (!c.watched && c.times < 0) out.names.push_back(c.name), at.push_back(i);
+  }
+  const VectorXd s = covariance.diagonal()(at).cwiseSqrt().cwiseInverse();
+  out.matrix = s.asDiagonal() * covariance(at, at) * s.asDiagonal();
+  return out;
+}
+
 std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
                                       const std::vector<Parameter>& parameters) {
   std::vector<std::string> out;
@@ -231,14 +243,16 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
   if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
   const int n = static_cast<int>(result.parameters.size());
-  for (int i = 0; i < n; ++i) result.correlation_names.push_back(theta.name(i));
-  const VectorXd s = fit.covariance.diagonal().head(n).cwiseSqrt().cwiseInverse();
-  result.correlation = s.asDiagonal() * fit.covariance.topLeftCorner(n, n) * s.asDiagonal();
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < i; ++k)
-      if (std::abs(result.correlation(i, k)) > 0.95)
+  result.correlation = flight_correlation(theta, fit.covariance);
+  const auto& [names, correlation] = result.correlation;
+  for (Eigen::Index i = 0; i < correlation.rows(); ++i)
+    for (Eigen::Index k = 0; k < i; ++k)
+      if (std::abs(correlation(i, k)) > 0.95)
         result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
-                                              theta.name(k), theta.name(i), result.correlation(i, k)));
+                                              names[static_cast<std::size_t>(k)],
+                                              names[static_cast<std::size_t>(i)], correlation(i, k)));
+  result.prior_correlation =
+      vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   if (options.shown != Shown::numbers) {
     result.sections.push_back(data_health(record, logs, fit.noise, vibration));
     if (!thrust.empty()) result.sections.push_back(thrust_section(thrust));

@@ -35,6 +35,10 @@ Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, do
 /// order of the constants; watched ones, which come last, are left out.
 std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit, const std::string& source);
 
+/// Correlation of those estimates, from the covariance of the unknowns. What moves as a product with another
+/// constant (a payload's place) is left out.
+Correlation flight_correlation(const Theta& theta, const Eigen::MatrixXd& covariance);
+
 /// What the data tell only in combination, in words ("kT and km only as kT km^2").
 std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
                                       const std::vector<Parameter>& parameters);

@@ -64,13 +64,12 @@ const FlightSmoother::Covariances& FlightSmoother::covariances_by(std::size_t el
 VectorXd FlightSmoother::shared_optimum() const {
   if (theta_->size() == 0) return VectorXd(0);
   const PriorTerms prior = theta_->prior(trial_u_);
-  MatrixXd H = reduced_.S;
   // Directions that the data do not tell stay where they are: no further than some units without a prior.
-  H.diagonal() += prior.slope.cwiseAbs2().cwiseMax(1e-2);
+  const MatrixXd H = reduced_.S + prior.information(1e-2);
   const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
   scaled.diagonal().array() += 1e-7;
-  const VectorXd g = reduced_.g + prior.slope.cwiseProduct(prior.residual);
+  const VectorXd g = reduced_.g + prior.gradient();
   return -(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(VectorXd(s.asDiagonal() * g)));
 }
 

@@ -118,9 +118,9 @@ VectorXd FlightSmoother::information_of_held_states() const {
 
 double FlightSmoother::surprise() const {
   const PriorTerms prior = theta_->prior(trial_u_);
-  double sum = reduced_.cost + prior.residual.squaredNorm() + reduced_.log_det;
+  double sum = reduced_.cost + prior.cost() + reduced_.log_det;
   if (theta_->size() > 0)  // down to the optimum, along the quadratic form
-    sum += shared_optimum().dot(reduced_.g + prior.slope.cwiseProduct(prior.residual));
+    sum += shared_optimum().dot(reduced_.g + prior.gradient());
   for (const ChunkResult& r : results_)
     for (std::size_t c = 0; c < kChannels; ++c) sum += 2 * r.count[c] * std::log(noise_.sigma[c]);
   return sum;

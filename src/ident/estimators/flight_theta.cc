@@ -12,6 +12,8 @@
 namespace ident {
 namespace {
 
+using Eigen::MatrixXd;
+
 // Below this share of what is stated, what is positive is held along its logarithm: against a loose prior it
 // would otherwise vanish for the price of a few deviations, and with it what the flight says of all else.
 constexpr double kVanishing = 0.1;
@@ -20,6 +22,24 @@ EffectMask effect_of(int slot) {
   for (const EffectEntry& e : catalogue())
     if (slot >= e.offset && slot < e.offset + static_cast<int>(e.parameters.size())) return mask_of(e.id);
   return 0;
+}
+
+// Inverse of the correlation of what is known of the constants; of unknowns further than they nothing else.
+MatrixXd precision_of(const std::vector<FreeConstant>& constants, int size) {
+  std::vector<Eigen::Index> at;
+  for (std::size_t i = 0; i < constants.size(); ++i)
+    if (constants[i].prior_std && !constants[i].known_with.empty())
+      at.push_back(static_cast<Eigen::Index>(i));
+  const auto n = static_cast<Eigen::Index>(at.size());
+  MatrixXd C = MatrixXd::Identity(n, n), precision = MatrixXd::Identity(size, size);
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (const auto& [index, r] :
+         constants[static_cast<std::size_t>(at[static_cast<std::size_t>(a)])].known_with)
+      for (Eigen::Index b = 0; b < n; ++b)
+        if (constants[static_cast<std::size_t>(at[static_cast<std::size_t>(b)])].index == index)
+          C(a, b) = C(b, a) = r;
+  if (!C.isIdentity(0)) precision(at, at) = inverse_correlation(C);
+  return precision;
 }
 
 }  // namespace
@@ -32,6 +52,7 @@ Theta::Theta(std::vector<double> p, std::vector<FreeConstant> constants, int log
       gyro_(gyro),
       gyro_bias_std_(gyro_bias_std) {
   for (const FreeConstant& c : constants_) p_[static_cast<std::size_t>(c.index)] = c.start;
+  prior_precision_ = precision_of(constants_, size());
 }
 
 std::string Theta::name(int i) const {
@@ -103,14 +124,25 @@ std::vector<Seed> Theta::seeds(const Eigen::VectorXd& u, int log) const {
   return seeds;
 }
 
+// Whether what is known of a constant is normal in its logarithm.
+bool Theta::in_logarithms(int i) const {
+  const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
+  return c.positive && !c.known_with.empty() && c.prior_value > 0 && factor(i) < 0;
+}
+
 PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
-  PriorTerms terms{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(size())};
+  PriorTerms terms{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(size()), prior_precision_};
   for (int i = 0; i < size(); ++i) {
     double std = gyro_bias_std_, value = 0.0, tail = -std::numeric_limits<double>::infinity();
     if (i < constants_count()) {
       const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
       if (!c.prior_std) continue;
       std = *c.prior_std, value = c.prior_value;
+      if (in_logarithms(i)) {
+        terms.residual[i] = std::log(physical(u, i) / value) * value / std;
+        terms.slope[i] = value / std;
+        continue;
+      }
       if (c.positive && factor(i) < 0) tail = kVanishing * value;
     }
     const double at = physical(u, i);
@@ -204,6 +236,10 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
     if (known != vehicle.parameters.end() && known->second.std && *known->second.std > 0) {
       c.prior_std = *known->second.std;
       c.prior_value = known->second.value;
+      for (const ParameterInfo& other : all_parameters())
+        if (const double r = vehicle.correlation.of(info.name, other.name);
+            r != 0 && other.index != info.index)
+          c.known_with.emplace_back(other.index, r);
     }
     free.push_back(std::move(c));
   };

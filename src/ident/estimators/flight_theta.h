@@ -5,9 +5,11 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ident/estimators/flight_kernel.h"
+#include "ident/estimators/flight_prior.h"
 
 namespace ident {
 
@@ -19,6 +21,9 @@ struct FreeConstant {
   double start = 0.0, scale = 1.0;
   std::optional<double> prior_std;  ///< about `prior_value`
   double prior_value = 0.0;
+  /// Model indices of others that are known together with it, and the correlation of the two priors. What is
+  /// positive is normal in its logarithm then: a product that is known makes a straight line there.
+  std::vector<std::pair<int, double>> known_with;
   bool adopted = false;  ///< belongs to a cause that a diagnosis took up, not to the model as stated
   bool watched = false;  ///< held where it is; only what the flight says against that is looked at
   /// Slot of another free constant: what moves on its own is the product with that (a payload's moment, not
@@ -27,11 +32,6 @@ struct FreeConstant {
 
   /// Change of the value for a unit step from the start.
   double unit() const { return positive ? start : scale; }
-};
-
-struct PriorTerms {
-  Eigen::VectorXd residual;  ///< one per unknown, 0 without prior
-  Eigen::VectorXd slope;     ///< derivative with respect to its own unknown
 };
 
 class Theta {
@@ -66,12 +66,14 @@ class Theta {
  private:
   int factor(int i) const;
   double slope_over_factor(const Eigen::VectorXd& u, int i) const;
+  bool in_logarithms(int i) const;
 
   std::vector<double> p_;
   std::vector<FreeConstant> constants_;
   int logs_;
   bool gyro_;
   double gyro_bias_std_;
+  Eigen::MatrixXd prior_precision_;
 };
 
 /// The constants of a vehicle that a refinement frees: those with a standard deviation or without a value

@@ -131,12 +131,13 @@ TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& thet
     const MatrixXd Y = trim_slopes(record, trim, theta, u);
     const PriorTerms prior = theta.prior(u);
     MatrixXd known = common * common.transpose();
-    known.diagonal() += prior.slope.unaryExpr([](double s) { return s == 0 ? kNothingKnown : s * s; });
+    known += prior.information();
+    known.diagonal() += prior.slope.unaryExpr([](double s) { return s == 0 ? kNothingKnown : 0.0; });
     // Scatter is found where the constants stand at first: what they explain then is not yet taken out.
     if (step < 2 && !like) {
       const MatrixXd A = ratio_slopes(record, trim, p);
       out.noise = noise_of(trim, out.y);
-      const VectorXd priors = prior.slope.cwiseProduct(prior.residual) + common * common.dot(u);
+      const VectorXd priors = prior.gradient() + common * common.dot(u);
       const VectorXd expected = out.y - Y * Eigen::LDLT<MatrixXd>(known).solve(priors);
       out.scatter = scatter_known && trim.logs < 2  // it is in their deviations
                         ? TrimScatter{}
@@ -148,10 +149,9 @@ TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& thet
     const MatrixXd WY = V.solve(Y);
     out.fit.information = Y.transpose() * WY;
     H = out.fit.information + known;
-    const VectorXd g =
-        WY.transpose() * out.y + prior.slope.cwiseProduct(prior.residual) + common * common.dot(u);
+    const VectorXd g = WY.transpose() * out.y + prior.gradient() + common * common.dot(u);
     const VectorXd du = -Eigen::LDLT<MatrixXd>(H).solve(g);
-    out.fit.cost = out.y.dot(V.solve(out.y)) + prior.residual.squaredNorm() + std::pow(common.dot(u), 2);
+    out.fit.cost = out.y.dot(V.solve(out.y)) + prior.cost() + std::pow(common.dot(u), 2);
     double widest = 1.0;  // of a logarithm
     for (int i = 0; i < theta.constants_count(); ++i)
       if (theta.constants()[static_cast<std::size_t>(i)].positive) widest = std::max(widest, std::abs(du[i]));

@@ -34,8 +34,8 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
   PriorTerms prior = theta.prior(fit.u);
   prior.slope[at] = 0;
   const Eigen::Index n = fit.u.size();
-  MatrixXd F = MatrixXd::Zero(n, n), H = prior.slope.cwiseAbs2().asDiagonal();
-  VectorXd g = prior.slope.cwiseProduct(prior.residual);
+  MatrixXd F = MatrixXd::Zero(n, n), H = prior.information();
+  VectorXd g = prior.gradient();
   for (const ScoreBlock& block : fit.blocks) F += block.information, g += block.score;
   H += F;
   H.diagonal() *= 1 + 1e-12;  // what nothing tells

@@ -133,6 +133,9 @@ Parameter fitted_parameter(const LeastSquaresFit& fit, const std::string& name, 
 Parameter derived_parameter(const LeastSquaresFit& fit, std::string name, double value,
                             const Eigen::VectorXd& gradient, std::string unit, std::string source);
 
+/// Correlation of some unknowns, within what the data determine of them.
+Correlation fitted_correlation(const LeastSquaresFit& fit, std::vector<std::string> names);
+
 /// r = A x - y for problems that are linear.
 ResidualFunction linear_residuals(Eigen::MatrixXd A, Eigen::VectorXd y);
 

@@ -153,4 +153,15 @@ ResidualFunction linear_residuals(Eigen::MatrixXd A, Eigen::VectorXd y) {
       };
 }
 
+Correlation fitted_correlation(const LeastSquaresFit& fit, std::vector<std::string> names) {
+  std::vector<Eigen::Index> at;
+  for (const std::string& name : names) at.push_back(fit.index(name));
+  const Eigen::MatrixXd C = fit.determined_covariance(at, at);
+  const Eigen::VectorXd s =
+      C.diagonal().unaryExpr([](double v) { return v > 0.0 ? 1.0 / std::sqrt(v) : 0.0; });
+  Correlation out{std::move(names), s.asDiagonal() * C * s.asDiagonal()};
+  out.matrix.diagonal().setOnes();
+  return out;
+}
+
 }  // namespace ident

@@ -78,18 +78,6 @@ void add_response(Result& result, const StepResponse& response) {
     result.extra[p->name] = as_json(*p);
 }
 
-void add_correlation(Result& result, const MotorFit& motor) {
-  result.correlation_names = {"omega_m", "zeta_m", "dead_time"};
-  result.correlation.resize(3, 3);
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const Eigen::Index a = motor.fit.index(result.correlation_names[static_cast<std::size_t>(i)]);
-      const Eigen::Index b = motor.fit.index(result.correlation_names[static_cast<std::size_t>(k)]);
-      const Eigen::MatrixXd& C = motor.fit.determined_covariance;
-      result.correlation(i, k) = C(a, b) / std::sqrt(C(a, a) * C(b, b));
-    }
-}
-
 }  // namespace
 
 Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions& options) {
@@ -108,7 +96,7 @@ Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions
   add_fit(result, records, motor);
   expect_answer(result, records);
   add_response(result, response);
-  add_correlation(result, motor);
+  result.correlation = line.correlation;
   judge_separability(result, response);
   judge_static_curve(result, records, line);
   compare_directions(result, records, motor);

@@ -58,10 +58,14 @@ LeastSquaresFit line_through(const StaticLine& line, Eigen::Index unknowns) {
 
 StaticLine static_line(const std::vector<StepRecord>& records, const MotorFit& motor) {
   StaticLine line;
+  std::vector<std::string> names = {"omega_m", "zeta_m", "dead_time"};
   if (motor.curve == StaticCurve::proportional || motor.curve == StaticCurve::line) {
     line.km = fitted_parameter(motor.fit, "km", "rad/s", "motor");
     if (motor.curve == StaticCurve::line)
       line.Omega_0 = fitted_parameter(motor.fit, "Omega_0", "rad/s", "motor");
+    names.emplace_back("km");
+    if (line.Omega_0) names.emplace_back("Omega_0");
+    line.correlation = fitted_correlation(motor.fit, names);
     return line;
   }
   add_points(line, records, motor);
@@ -69,7 +73,11 @@ StaticLine static_line(const std::vector<StepRecord>& records, const MotorFit& m
   const LeastSquaresFit& best = free.bic < through_zero.bic ? free : through_zero;
   line.km = fitted_parameter(best, "km", "rad/s", "motor");
   line.km.note = "slope of the straight line through a static curve that is not straight";
-  if (best.x.size() > 1) line.Omega_0 = fitted_parameter(best, "Omega_0", "rad/s", "motor");
+  line.correlation = fitted_correlation(motor.fit, names);
+  if (best.x.size() > 1) {
+    line.Omega_0 = fitted_parameter(best, "Omega_0", "rad/s", "motor");
+    line.correlation = line.correlation.beside(fitted_correlation(best, {"km", "Omega_0"}));
+  }
   line.misfit = root_mean_square({best.residuals.data(), static_cast<std::size_t>(best.residuals.size())});
   return line;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "ident/core/correlation.h"
 #include "ident/core/result.h"
 #include "ident/estimators/motor_step_fit.h"
 
@@ -12,6 +13,7 @@ namespace ident {
 struct StaticLine {
   Parameter km;
   std::optional<Parameter> Omega_0;  ///< when the data show one
+  Correlation correlation;           ///< of these and of the dynamics
   std::vector<double> delta, level;  ///< points of the curve, where it is not a line by construction
   double misfit = 0.0;               ///< RMS distance of the points from the line, rad/s
 };

@@ -111,13 +111,13 @@ Section section(const Vehicle& vehicle, double arm, double alpha, double best) {
 
 }  // namespace
 
-Result estimate_slant(const Vehicle& vehicle, const SlantOptions& options) {
+Result estimate_slant(const Vehicle& vehicle) {
   Result result{.command = "slant", .inputs = {vehicle.file}, .warnings = vehicle.warnings};
   const Known kT = needed(vehicle, "kT", "the thrust constant"),
               kQ = needed(vehicle, "kQ", "the torque constant"), arm = needed_arm(vehicle);
   const Vehicle quadrotor = judged(vehicle, arm.value, result);
   const double alpha = optimal_slant(kT.value, kQ.value, arm.value);
-  const double std = optimal_slant_std(kT, kQ, arm, options.correlation);
+  const double std = optimal_slant_std(kT, kQ, arm, vehicle.correlation.of("kT", "kQ"));
   if (!std::isfinite(std))
     result.warn("no_uncertainty", "kT or kQ has no standard deviation: neither has alpha_opt");
   result.parameters = {angle_parameter(alpha, std)};

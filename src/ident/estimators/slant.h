@@ -6,13 +6,9 @@
 
 namespace ident {
 
-struct SlantOptions {
-  double correlation = 0.0;  ///< of kT and kQ, where it is known
-};
-
 /// `alpha_opt` with its uncertainty, the allocation of the four inputs at that angle, the best angle for the
 /// vehicle as it is, and the price in lift, yaw and precision. Throws InputError where kT, kQ or the arm is
 /// missing.
-Result estimate_slant(const Vehicle& vehicle, const SlantOptions& options = {});
+Result estimate_slant(const Vehicle& vehicle);
 
 }  // namespace ident

@@ -97,6 +97,7 @@ void add_curve(Result& result, const Files& files) {
     // Its size is to be judged against full speed: an offset near zero is known well, not badly.
     offset.identifiable = offset.std < 0.1 * km->value;
     result.parameters.push_back(offset);
+    result.correlation = result.correlation.beside(fitted_correlation(file.curve->fit, {"km", "Omega_0"}));
   }
   if (offsets.size() > 1) {
     const RobustMean over = robust_mean(offsets);
@@ -145,10 +146,9 @@ void add_sweep_parameters(Result& result, const std::vector<SweepFile>& files, c
   if (auto kQ = over_files(files, "kQ", "N m s^2/rad^2", torque_fit, result.warnings)) {
     result.parameters.push_back(*kQ);
     const double rho = thrust_torque_correlation(files);
-    result.correlation_names = {"kT", "kQ"};
-    result.correlation = Eigen::Matrix2d{{1.0, rho}, {rho, 1.0}};
+    result.correlation = {{"kT", "kQ"}, Eigen::Matrix2d{{1.0, rho}, {rho, 1.0}}};
   }
-  add_rotor(result, options, result.correlation.size() ? result.correlation(0, 1) : 0.0);
+  add_rotor(result, options, result.correlation.of("kT", "kQ"));
   add_curve(result, files);
   add_motor(result, files);
 }

@@ -200,6 +200,10 @@ Result estimate_inertia(const std::vector<NumberTable>& tables, const InertiaOpt
       fit.degrees_of_freedom > 0.0 ||
       std::ranges::all_of(model.rows(), [](const PendulumRow& r) { return r.std > 0.0; });
   if (!noise_known) without_noise(result);
+  // The platform's own inertia is taken off all of them.
+  std::vector<std::string> moments;
+  for (const Parameter& p : result.parameters) moments.push_back(p.name);
+  if (noise_known && moments.size() > 1) result.correlation = fitted_correlation(fit, moments);
 
   const std::vector<double> residual = period_residuals(model, fit);
   std::vector<double> kept, periods;

@@ -124,7 +124,7 @@ std::vector<std::vector<Asked>> asked_by_channels(const FittedModel& model) {
     const Told by_part = told(smoother, smoother.along(d), parts);
     const double all = d.dot(H * d);
     // What is left to go to the minimum, where a bent valley keeps a fit from it.
-    double left = prior.slope.cwiseProduct(prior.residual).dot(d);
+    double left = prior.gradient().dot(d);
     for (const std::vector<double>& of_part : by_part.score) left += sum_of(of_part);
     out.emplace_back();
     for (std::size_t p = 0; p < parts.size(); ++p) {

@@ -16,6 +16,7 @@
 #include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_inertia.h"
 #include "ident/estimators/flight_input_doubt.h"
+#include "ident/estimators/flight_jitter.h"
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
@@ -65,22 +66,21 @@ Judged in_hover(Judged verdict) {
   return verdict;
 }
 
-// Values that only a cause would have that is not named are not known.
-void doubt_refused(std::vector<Parameter>& parameters, const SearchResult& search) {
-  for (Parameter& p : parameters)
-    for (const Candidate& c : search.best.adopted) {
-      if (c.name != "parameter:" + p.name && p.name.substr(0, p.name.find('.')) != c.name) continue;
-      p.doubt({});
-      p.note = "of a cause that is not named";
-    }
-}
-
 // Whether what is left lies at the noise, so that only its pattern speaks, and gusts were held for longer
 // than they last: where a controller answers them within that, its answer is a pattern too.
 bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, const GapClosed& gap) {
   constexpr double kAtTheNoise = 2.0, kShorter = 0.8;
   return gap.after < kAtTheNoise * gap.floor &&
          chunk_for(record, search.form.noise) < kShorter * search.best.fit.chunk_seconds;
+}
+
+// By the speeds of rotors that jump as no command says.
+Diagnosis by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options,
+                    const FeltJitter& jitter) {
+  Diagnosis out = diagnose_gap(vehicle, without_commands(logs), options);
+  std::erase_if(out.result.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
+  out.result.warnings.push_back(jitter.warning());
+  return out;
 }
 
 // How a flight is looked at: first; closer, with gusts in steps as short as a refinement has them; or as at
@@ -98,6 +98,9 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
                                      look == Look::closer, options.progress};
   SearchResult search = search_causes(record, vehicle, p, search_options);
+  if (const FeltJitter jitter = felt_jitter(record, *search.best.theta, search.best.fit);
+      jitter.matters() && may_do_without_commands(logs, {}))
+    return by_speeds(vehicle, logs, options, jitter);
   const Eigen::VectorXd moved = moved_by_rougher_speeds(record, *search.best.theta, search.best.fit);
   const std::vector<std::string> loose = depend_on_smoothing(search.best, moved);
   search.best.fit.covariance += moved * moved.transpose();
@@ -182,7 +185,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
     return gap_closed(same_windows(a[1], c[0]), c[0]);
   };
   result.extra["candidates"] = causes_tried(search, closed_alone);
-  if (verdict.refused) doubt_refused(result.parameters, search);
+  if (verdict.refused) doubt_refused(result.parameters, search.best.adopted);
   if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
   if (verdict.plain) trust_more(result.extra["candidates"], verdict.effects);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);

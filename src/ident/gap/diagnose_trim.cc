@@ -62,13 +62,13 @@ QuadraticForm form_of(const FlightRecord& record, const Trim& trim, const TrimFi
   const VectorXd u = VectorXd::Zero(theta.size());
   const MatrixXd Y = trim_slopes(record, trim, theta, u);
   const Eigen::LLT<MatrixXd> V(fit.V);
-  const PriorTerms prior = theta.prior(u);
   QuadraticForm form;
   form.S = Y.transpose() * V.solve(Y);
   form.g = Y.transpose() * V.solve(fit.y);
   form.cost0 = fit.fit.cost;
-  form.prior_info = prior.slope.cwiseAbs2().cwiseMax(1e-9);
-  form.prior_g = prior.slope.cwiseProduct(prior.residual);
+  form.prior = theta.prior(u);
+  const double least = std::sqrt(1e-9);
+  form.prior.slope = form.prior.slope.unaryExpr([&](double s) { return std::abs(s) < least ? least : s; });
   form.null = VectorXd::Zero(theta.size());
   form.base = problem.base, form.constants = theta.constants_count();
   const auto hidden = [&](int i) { return form.S(i, i) < kShows; };

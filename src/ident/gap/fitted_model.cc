@@ -2,10 +2,12 @@
 #include "ident/gap/fitted_model.h"
 
 #include <cmath>
+#include <set>
 
 #include "ident/core/error.h"
 #include "ident/effects/catalogue.h"
 #include "ident/estimators/flight_inertia.h"
+#include "ident/estimators/flight_refine.h"
 
 namespace ident {
 namespace {
@@ -58,12 +60,17 @@ Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
   Vehicle out = vehicle;
   const Theta& theta = *model.theta;
   const Eigen::VectorXd u = nearest_body(theta, model.fit);
+  std::set<std::string> refitted;
   for (int i = 0; i < theta.constants_count(); ++i) {
     const std::string& name = theta.constants()[static_cast<std::size_t>(i)].name;
     const double value = theta.physical(u, i);
     if (name == "dead_time" && value < 0) continue;  // of clocks, not of motors
     out.parameters[name] = {value, theta.deviation(u, i, model.fit.covariance)};
+    refitted.insert(name);
   }
+  const auto is_refitted = [&](const std::string& name) { return refitted.contains(name); };
+  out.correlation = vehicle.correlation.part([&](const std::string& name) { return !is_refitted(name); })
+                        .beside(flight_correlation(theta, model.fit.covariance).part(is_refitted));
   for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
   return out;
 }

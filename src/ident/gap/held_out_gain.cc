@@ -36,12 +36,12 @@ class HeldOutGain {
 
 double held_out_gain(const std::vector<ScoreBlock>& blocks, const PriorTerms& prior, double expected) {
   const Index m = blocks[0].score.size(), own = prior.slope.size();
-  VectorXd info = VectorXd::Constant(m, 1 / (expected * expected)), pull = VectorXd::Zero(m);
-  info.head(own) = prior.slope.cwiseAbs2().cwiseMax(1e-2);
-  pull.head(own) = prior.slope.cwiseProduct(prior.residual);
+  MatrixXd info = MatrixXd::Identity(m, m) / (expected * expected);
+  info.topLeftCorner(own, own) = prior.information(1e-2);
+  VectorXd pull = VectorXd::Zero(m);
+  pull.head(own) = prior.gradient();
   const auto solved = [&](const MatrixXd& F, const VectorXd& g, Index size) {
-    MatrixXd H = F.topLeftCorner(size, size);
-    H.diagonal() += info.head(size);
+    const MatrixXd H = F.topLeftCorner(size, size) + info.topLeftCorner(size, size);
     return VectorXd(-Eigen::LDLT<MatrixXd>(H).solve(g.head(size) + pull.head(size)));
   };
   const auto fall = [](const ScoreBlock& block, const VectorXd& x) {

@@ -16,6 +16,7 @@ constexpr double kFarther = 3.0;
 // The price of a direction is half the log of the odds between the sizes that it might have had, some times
 // its typical one, and those that the data leave; at most that of an effective sample.
 constexpr double kPricePerDirection = 2.5;
+constexpr double kDropped = 100.0;  // times its deviation, a prior counts as dropped
 constexpr double kPlausible = 9.0;  // square of the largest plausible size over the typical one
 
 struct Solved {
@@ -30,23 +31,21 @@ Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
                const std::vector<std::pair<int, double>>& fixed, const std::vector<int>& without_prior,
                Eigen::Index priced = 0) {
   const Eigen::Index n = f.g.size();
-  VectorXd info = f.prior_info, g = f.g + f.prior_g;
-  double waived = 0;  // what the priors that are dropped cost where the form stands
-  for (const int i : without_prior) {
-    waived += (1 - 1e-4) * f.prior_g[i] * f.prior_g[i] / f.prior_info[i];
-    info[i] *= 1e-4, g[i] -= f.prior_g[i] * (1 - 1e-4);
-  }
+  PriorTerms prior = f.prior;
+  for (const int i : without_prior) prior = prior.loosened(i, kDropped);
+  const double waived = f.prior.cost() - prior.cost();  // where the form stands
+  const MatrixXd H = f.S + prior.information();
+  const VectorXd g = f.g + prior.gradient();
   VectorXd d = VectorXd::Zero(n);
   for (const auto& [i, x] : fixed) d[i] = x;
-  const VectorXd Hd = f.S * d + info.cwiseProduct(d);
+  const VectorXd Hd = H * d;
   const auto m = static_cast<Eigen::Index>(free.size());
   MatrixXd M(m, m);
   VectorXd r(m);
   for (Eigen::Index a = 0; a < m; ++a) {
     const int i = free[static_cast<std::size_t>(a)];
     r[a] = g[i] + Hd[i];
-    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = f.S(i, free[static_cast<std::size_t>(b)]);
-    M(a, a) += info[i];
+    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = H(i, free[static_cast<std::size_t>(b)]);
   }
   const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
@@ -60,7 +59,7 @@ Solved minimum(const QuadraticForm& f, const std::vector<int>& free,
   }
   for (Eigen::Index a = 0; a < m; ++a) d[free[static_cast<std::size_t>(a)]] = x[a];
   out.step = d;
-  out.drop = waived - (2 * g.dot(d) + d.dot(f.S * d) + info.cwiseProduct(d).dot(d));
+  out.drop = waived - (2 * g.dot(d) + d.dot(H * d));
   return out;
 }
 
@@ -129,11 +128,8 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   form.S = system.S;
   form.base = problem.base;
   form.constants = theta.constants_count();
-  const PriorTerms prior = theta.prior(u);
-  const Eigen::Index all = form.g.size(), own = theta.size();
-  form.prior_info = VectorXd::Ones(all), form.prior_g = form.null = VectorXd::Zero(all);
-  form.prior_info.head(own) = prior.slope.cwiseAbs2();
-  form.prior_g.head(own) = prior.slope.cwiseProduct(prior.residual);
+  const Eigen::Index all = form.g.size();
+  form.prior = theta.prior(u).extended(all), form.null = VectorXd::Zero(all);
   for (int i = 0; i < form.constants; ++i) {
     const FreeConstant& c = constants[static_cast<std::size_t>(i)];
     if (c.name.find('.') == std::string::npos || states_constant(*record.vehicle, c.name)) continue;
@@ -150,11 +146,12 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
   if (scores.cols() < 8) return form;
   const std::vector<int> base = base_unknowns(form, problem);
   const auto m = static_cast<Eigen::Index>(base.size());
+  const MatrixXd H = form.S + form.prior.information();
   MatrixXd M(m, m), C(m, all);
   for (Eigen::Index a = 0; a < m; ++a) {
     const int i = base[static_cast<std::size_t>(a)];
-    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = form.S(i, base[static_cast<std::size_t>(b)]);
-    M(a, a) += form.prior_info[i] + 1e-12 * (1 + M(a, a));
+    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = H(i, base[static_cast<std::size_t>(b)]);
+    M(a, a) += 1e-12 * (1 + form.S(i, i));
     C.row(a) = form.S.row(i);
   }
   const MatrixXd project = Eigen::LDLT<MatrixXd>(M).solve(C);
@@ -273,19 +270,21 @@ double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, i
   std::vector<int> free = base_unknowns(form, problem);
   if (c.parameter < 0) free.push_back(target);
   const auto m = static_cast<Eigen::Index>(free.size());
+  const PriorTerms prior = c.parameter >= 0 ? form.prior.loosened(c.parameter, kDropped) : form.prior;
+  const MatrixXd H = form.S + prior.information();
   MatrixXd M(m, m);
   Eigen::Index at = 0;
   for (Eigen::Index a = 0; a < m; ++a) {
     const int i = free[static_cast<std::size_t>(a)];
     if (i == target) at = a;
-    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = form.S(i, free[static_cast<std::size_t>(b)]);
-    M(a, a) += c.parameter == i ? 1e-4 * form.prior_info[i] : form.prior_info[i];
+    for (Eigen::Index b = 0; b < m; ++b) M(a, b) = H(i, free[static_cast<std::size_t>(b)]);
   }
   const VectorXd s = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * M * s.asDiagonal();
   scaled.diagonal().array() += 1e-10;
   // What is stated of a parameter may be off by its own deviation as well.
-  const double stated = c.parameter >= 0 && form.prior_info[target] > 0 ? 1 / form.prior_info[target] : 0.0;
+  const double stated =
+      c.parameter >= 0 && form.prior.slope[target] > 0 ? 1 / std::pow(form.prior.slope[target], 2) : 0.0;
   const double v = Eigen::LLT<MatrixXd>(scaled).solve(VectorXd::Unit(m, at))[at] * s[at] * s[at] + stated;
   return std::sqrt(std::max(v, 0.0) *
                    stretch_of(form, c.parameter >= 0 ? std::vector<int>{target} : c.directions)) *

@@ -13,8 +13,8 @@ inline constexpr double kGustArm = 0.1;
 /// above the origin gusts push), priors of the base not included.
 struct QuadraticForm {
   double cost0 = 0.0;
-  Eigen::VectorXd g, prior_g, prior_info,
-      null;  ///< null: step that takes an adopted effect back to its null value
+  Eigen::VectorXd g, null;  ///< null: step that takes an adopted effect back to its null value
+  PriorTerms prior;         ///< of the constants, and of what else is free
   Eigen::MatrixXd S;
   Eigen::MatrixXd scores;                    ///< [constant][block], base projected out
   std::vector<Eigen::MatrixXd> information;  ///< of each block, constants x constants, base projected out

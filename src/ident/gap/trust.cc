@@ -1,4 +1,4 @@
-// Both keep the most probable first.
+// Probabilities keep the most probable first.
 #include "ident/gap/trust.h"
 
 #include <algorithm>
@@ -36,6 +36,15 @@ void trust_more(Json& candidates, const std::vector<std::string>& plain) {
   for (Json& c : candidates)
     if (is_one_of(c, plain)) c["probability"] = std::max(kPlainlyThere, c["probability"].get<double>());
   most_probable_first(candidates);
+}
+
+void doubt_refused(std::vector<Parameter>& parameters, const std::vector<Candidate>& causes) {
+  for (Parameter& p : parameters)
+    for (const Candidate& c : causes) {
+      if (c.name != "parameter:" + p.name && p.name.substr(0, p.name.find('.')) != c.name) continue;
+      p.doubt({});
+      p.note = "of a cause that is not named";
+    }
 }
 
 }  // namespace ident

@@ -1,9 +1,12 @@
-// What probabilities of causes are worth once a verdict is known.
+// What probabilities and sizes of causes are worth once a verdict is known.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "ident/core/result.h"
+#include "ident/gap/candidates.h"
 
 namespace ident {
 
@@ -14,5 +17,8 @@ void trust_less(nlohmann::ordered_json& candidates, const std::vector<std::strin
 /// Causes that are there whatever else is, as the flight shows by itself: the search, which asks what
 /// explains it all, may have had them for less probable.
 void trust_more(nlohmann::ordered_json& candidates, const std::vector<std::string>& plain);
+
+/// Values that only one of the causes would have are not known where it is not named.
+void doubt_refused(std::vector<Parameter>& parameters, const std::vector<Candidate>& causes);
 
 }  // namespace ident

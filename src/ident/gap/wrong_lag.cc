@@ -20,7 +20,7 @@ constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0
 
 double total_cost(FlightSmoother& smoother, const Theta& theta, const Eigen::VectorXd& u) {
   const ReducedSystem& system = smoother.linearize(u);
-  return std::isfinite(system.cost) ? system.cost + theta.prior(u).residual.squaredNorm() : kNaN;
+  return std::isfinite(system.cost) ? system.cost + theta.prior(u).cost() : kNaN;
 }
 
 bool off(const FittedModel& model, int index, double deviations) {

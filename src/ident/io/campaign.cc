@@ -1,9 +1,13 @@
 // Reads ident.yaml and lays estimates over what is known.
 #include "ident/io/campaign.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <filesystem>
 
 #include "ident/core/error.h"
+#include "ident/core/format_number.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/io/yaml_value.h"
 
@@ -13,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "ident.yaml";
+constexpr double kCorrected = 5.0;  // standard deviations: no estimate of the same constant is that far off
 const std::vector<std::string> kKeys = {"vehicle", "parameters", "thrust", "motor", "inertia", "map", "logs"};
 
 /// The path of a file that a value names; it has to exist unless it is still to be written.
@@ -41,6 +46,24 @@ CampaignLog read_log(const YamlValue& value, const fs::path& folder, const std::
   value.expect_map(keys);
   return {named_file(value.at("file"), folder),
           value.has("map") ? named_file(value.at("map"), folder) : common_map};
+}
+
+/// What the vehicle file states otherwise than it can have been when the parameter file was written.
+std::vector<Warning> stated_otherwise(const Vehicle& vehicle, const Vehicle& found) {
+  std::vector<Warning> warnings;
+  for (const auto& [name, known] : found.parameters) {
+    const auto stated = vehicle.parameters.find(name);
+    if (stated == vehicle.parameters.end() || !stated->second.std) continue;
+    const double off = std::abs(known.value - stated->second.value) / *stated->second.std;
+    if (!(off > kCorrected)) continue;
+    warnings.push_back(
+        {"stated_otherwise",
+         fmt::format("{}: {} = {} is taken, {} states {}, which is {:.0f} of its standard deviations off. If "
+                     "that was corrected since, run the commands that found the other again.",
+                     found.file, name, format_with_uncertainty(known.value, known.std.value_or(kNaN)),
+                     vehicle.file, format_with_uncertainty(stated->second.value, *stated->second.std), off)});
+  }
+  return warnings;
 }
 
 }  // namespace
@@ -72,7 +95,10 @@ Campaign read_campaign(const std::string& folder) {
 Vehicle campaign_vehicle(const Campaign& campaign) {
   Vehicle vehicle = read_vehicle(campaign.vehicle);
   if (!fs::exists(campaign.parameters)) return vehicle;
-  return with_parameters(std::move(vehicle), read_vehicle(campaign.parameters));
+  const Vehicle found = read_vehicle(campaign.parameters);
+  const std::vector<Warning> warnings = stated_otherwise(vehicle, found);
+  vehicle.warnings.insert(vehicle.warnings.end(), warnings.begin(), warnings.end());
+  return with_parameters(std::move(vehicle), found);
 }
 
 std::string updated_parameters(const Campaign& campaign, const Result& result) {

@@ -84,6 +84,10 @@ FileParameter to_inside(const FileParameter& stated, int rotor) {
   return {numbered ? inside_name(stated.name, rotor) : stated.name, stated.known, {}};
 }
 
+std::string in_file(const std::string& inside_name) {
+  return inside_name == kRadiusSquared ? kRadius : inside_name;
+}
+
 std::vector<FileParameter> to_file(const std::map<std::string, Known>& parameters) {
   std::vector<FileParameter> entries;
   std::set<std::string> named;

@@ -32,6 +32,9 @@ struct FileParameter {
 /// A file's parameter by its inside name; `rotor` 1..N, or 0 where none is named.
 FileParameter to_inside(const FileParameter& stated, int rotor);
 
+/// Name in a file of one parameter alone: a rotor that it carries stays with it.
+std::string in_file(const std::string& inside_name);
+
 /// All parameters in their file form. What is not finite is left out.
 std::vector<FileParameter> to_file(const std::map<std::string, Known>& parameters);
 

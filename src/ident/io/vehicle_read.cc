@@ -8,6 +8,7 @@
 #include "ident/core/nearest_word.h"
 #include "ident/io/parameter_names.h"
 #include "ident/io/parse_number.h"
+#include "ident/io/vehicle_correlations.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/io/yaml_value.h"
 #include "ident/model/parameters.h"
@@ -17,9 +18,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const Words kVehicleKeys = {
-    "name",      "gravity", "mass",  "command",    "rotors",           "layout",      "arm",
-    "slant_deg", "ground",  "signs", "parameters", "propeller_radius", "air_density", "battery_voltage"};
+const Words kVehicleKeys = {"name",        "gravity",         "mass",        "command",
+                            "rotors",      "layout",          "arm",         "slant_deg",
+                            "ground",      "signs",           "parameters",  "propeller_radius",
+                            "air_density", "battery_voltage", "correlations"};
 const Words kKnownKeys = {"value", "std"};
 const Words kRotorKeys = {"position", "axis", "spin"};
 
@@ -209,6 +211,7 @@ Vehicle read_vehicle(const std::string& path, VehicleUse use) {
   if (file.has("rotors")) read_rotors(file, vehicle);
   if (file.has("layout")) read_layout(file, vehicle);
   if (file.has("slant_deg") && !file.has("layout")) file.at("slant_deg").fail("needs 'layout: 4sp'");
+  vehicle.correlation = read_correlations(file, vehicle);
   expect_rotor_exists(file, vehicle);
   if (use == VehicleUse::computing) expect_computable(file, vehicle);
   return vehicle;

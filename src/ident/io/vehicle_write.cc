@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "ident/effects/catalogue.h"
 #include "ident/io/parameter_names.h"
+#include "ident/io/vehicle_correlations.h"
 #include "ident/io/vehicle_file.h"
 #include "ident/io/write_file.h"
 
@@ -88,7 +90,9 @@ std::string vehicle_to_yaml(const Vehicle& vehicle) {
   if (vehicle.battery_voltage) out += fmt::format("battery_voltage: {}\n", *vehicle.battery_voltage);
   if (vehicle.ground_z != 0.0) out += fmt::format("ground: {}\n", vehicle.ground_z);
   if (vehicle.signs == Signs::as_published) out += "signs: as_published\n";
-  return out + parameter_lines(vehicle.parameters, axes_written);
+  out += parameter_lines(vehicle.parameters, axes_written);
+  return out + correlation_lines(
+                   vehicle, axes_written ? std::vector<std::string>{"alpha"} : std::vector<std::string>{});
 }
 
 void write_vehicle(const std::string& path, const Vehicle& vehicle) {
@@ -97,6 +101,8 @@ void write_vehicle(const std::string& path, const Vehicle& vehicle) {
 
 Vehicle with_parameters(Vehicle vehicle, const Vehicle& found) {
   for (const auto& [name, known] : found.parameters) vehicle.parameters[name] = known;
+  const auto kept = [&](const std::string& name) { return !found.parameters.contains(name); };
+  vehicle.correlation = vehicle.correlation.part(kept).beside(found.correlation);
   if (found.rotors.empty()) {
     for (Rotor& rotor : vehicle.rotors) rotor.a_B = axis_at(rotor, slant_angle(vehicle));
     return vehicle;
@@ -108,12 +114,17 @@ Vehicle with_parameters(Vehicle vehicle, const Vehicle& found) {
 }
 
 Vehicle with_result(Vehicle before, const Result& result) {
+  std::set<std::string> stored;
   for (const Parameter& p : result.parameters) {
     const bool known =
         (p.identifiable || p.joint) && std::isfinite(p.value) && std::isfinite(p.std) && p.std > 0.0;
     if (!known || p.name == "g" || !(is_file_parameter(p.name) || find_parameter(p.name))) continue;
     before.parameters[p.name] = {p.value, p.std};
+    stored.insert(p.name);
   }
+  const auto is_stored = [&](const std::string& name) { return stored.contains(name); };
+  before.correlation = before.correlation.part([&](const std::string& name) { return !is_stored(name); })
+                           .beside(result.correlation.part(is_stored));
   return before;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/core/correlation.h"
 #include "ident/core/result.h"
 
 namespace ident {
@@ -50,6 +51,7 @@ struct Vehicle {
   std::optional<double> battery_voltage;   ///< V at which km holds (battery_sag's v0)
   Signs signs = Signs::first_principles;
   std::map<std::string, Known> parameters;
+  Correlation correlation;        ///< of what is known of those with a standard deviation
   std::vector<Warning> warnings;  ///< what was noticed in the file
 
   bool has(const std::string& parameter) const { return parameters.count(parameter) > 0; }

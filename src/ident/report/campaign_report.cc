@@ -123,6 +123,9 @@ Result campaign_summary(const Vehicle& vehicle, const std::vector<Result>& resul
         summary.parameters.push_back(found);
       else if (found.identifiable || !at->identifiable)
         *at = found;
+      else if (found.joint)
+        at->value = found.value, at->std = found.std, at->ci95 = found.ci95,
+        at->source += ", " + found.source;
     }
   }
   const auto unknown = std::ranges::count(summary.parameters, false, &Parameter::identifiable);

@@ -153,9 +153,9 @@ Plot correlation_plot(const Result& result) {
           .title = "Correlation of the estimates",
           .caption = "Near 1 or -1 the data determine a combination of the two, not each alone.",
           .kind = Plot::Kind::heat_map,
-          .cells = result.correlation,
-          .row_names = result.correlation_names,
-          .column_names = result.correlation_names};
+          .cells = result.correlation.matrix,
+          .row_names = result.correlation.names,
+          .column_names = result.correlation.names};
 }
 
 }  // namespace ident

@@ -108,7 +108,7 @@ void Page::chapter(const Result& result, int level) {
   if (!is_diagnosis(result)) parameters(result, level + 1);
   heading(level + 1, "Checks and warnings");
   add(warnings_of(result));
-  bool open = result.correlation.size() > 0;
+  bool open = !result.correlation.empty();
   const auto correlation = [&] {
     if (!open) return;
     open = false;

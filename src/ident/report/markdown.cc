@@ -27,11 +27,11 @@ std::string table_of(const Table& table) {
 
 Table correlation_table(const Result& result) {
   Table table{.columns = {""}};
-  table.columns.insert(table.columns.end(), result.correlation_names.begin(), result.correlation_names.end());
-  for (Eigen::Index i = 0; i < result.correlation.rows(); ++i) {
-    std::vector<std::string> row{result.correlation_names.at(static_cast<std::size_t>(i))};
-    for (Eigen::Index k = 0; k < result.correlation.cols(); ++k)
-      row.push_back(format_number(result.correlation(i, k), 2));
+  table.columns.insert(table.columns.end(), result.correlation.names.begin(), result.correlation.names.end());
+  for (Eigen::Index i = 0; i < result.correlation.matrix.rows(); ++i) {
+    std::vector<std::string> row{result.correlation.names.at(static_cast<std::size_t>(i))};
+    for (Eigen::Index k = 0; k < result.correlation.matrix.cols(); ++k)
+      row.push_back(format_number(result.correlation.matrix(i, k), 2));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -108,7 +108,7 @@ void MarkdownWriter::chapter(const Result& result, int level) {
     for (const std::string& message : kind.messages)
       text_ += "* **" + escape_markdown(kind.code) + "**: " + escape_markdown(message) + "\n";
   text_ += result.warnings.empty() ? "No warnings.\n\n" : "\n";
-  bool open = result.correlation.size() > 0;
+  bool open = !result.correlation.empty();
   const auto correlation = [&] {
     if (!open) return;
     open = false;

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "ident.stored/1";
+constexpr const char* kSchema = "ident.stored/2";
 
 // The fields of each type. `T` is const when writing.
 
@@ -24,6 +24,7 @@ void visit_fields(T& p, Visit visit) {
   visit("unit", p.unit), visit("identifiable", p.identifiable), visit("source", p.source);
   visit("naive_std", p.naive_std), visit("prior_value", p.prior_value), visit("prior_std", p.prior_std);
   visit("pull", p.pull), visit("from_flight", p.from_flight), visit("note", p.note);
+  visit("joint", p.joint);
 }
 
 template <Is<Warning> T, typename Visit>
@@ -59,12 +60,17 @@ void visit_fields(T& f, Visit visit) {
   visit("path", f.path), visit("sha256", f.sha256);
 }
 
+template <Is<Correlation> T, typename Visit>
+void visit_fields(T& c, Visit visit) {
+  visit("names", c.names), visit("matrix", c.matrix);
+}
+
 template <Is<Result> T, typename Visit>
 void visit_fields(T& r, Visit visit) {
   visit("result_schema", r.schema), visit("command", r.command), visit("inputs", r.inputs);
   visit("parameters", r.parameters), visit("fit", r.fit), visit("warnings", r.warnings);
   visit("extra", r.extra), visit("verdict", r.verdict), visit("sections", r.sections);
-  visit("correlation_names", r.correlation_names), visit("correlation", r.correlation);
+  visit("correlation", r.correlation), visit("prior_correlation", r.prior_correlation);
   visit("files", r.files), visit("command_line", r.command_line), visit("seed", r.seed);
   visit("version", r.version);
 }

@@ -1,0 +1,35 @@
+// What was known of the shared unknowns before a flight: a normal distribution with its whole covariance.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace ident {
+
+/// The prior where the unknowns stand. Its cost is residual' precision residual.
+struct PriorTerms {
+  Eigen::VectorXd residual;   ///< one per unknown, in standard deviations of what was known; 0 without prior
+  Eigen::VectorXd slope;      ///< derivative with respect to its own unknown; 0 without prior
+  Eigen::MatrixXd precision;  ///< inverse of the correlation of what was known; identity where independent
+
+  double cost() const { return residual.dot(precision * residual); }
+  /// The cost after a small step of the unknowns.
+  double cost_after(const Eigen::VectorXd& step) const;
+  /// Half the derivative of the cost.
+  Eigen::VectorXd gradient() const { return slope.cwiseProduct(precision * residual); }
+  /// Information (inverse covariance) about the unknowns; at least `least` of each alone.
+  Eigen::MatrixXd information(double least = 0.0) const;
+  /// R with R'R the information, and R^-T times the gradient: the prior as residuals.
+  Eigen::MatrixXd root() const;
+  Eigen::VectorXd whitened() const;
+
+  /// With `factor` times the standard deviation of one of them.
+  PriorTerms loosened(Eigen::Index at, double factor) const;
+  /// With further unknowns, known to be zero within a unit.
+  PriorTerms extended(Eigen::Index size) const;
+};
+
+/// Inverse of a correlation matrix; combinations count as known no better than a hundred thousand times as
+/// well as the names in them, where rounding would make more of it.
+Eigen::MatrixXd inverse_correlation(const Eigen::MatrixXd& correlation);
+
+}  // namespace ident

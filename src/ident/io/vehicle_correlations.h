@@ -1,0 +1,20 @@
+// `correlations` of a vehicle or parameter file: what of its parameters is known together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/io/yaml_value.h"
+#include "ident/model/vehicle.h"
+
+namespace ident {
+
+/// Reads `correlations: {kT: {km: -0.99}}` of a file whose parameters are read: each pair once, of
+/// parameters of this file with a standard deviation. Throws InputError, for what no covariance can be too.
+Correlation read_correlations(const YamlValue& file, const Vehicle& vehicle);
+
+/// The same as text, one line for each name; those of `left_out` and of what the vehicle does not hold with a
+/// standard deviation are not written.
+std::string correlation_lines(const Vehicle& vehicle, const std::vector<std::string>& left_out);
+
+}  // namespace ident
