@@ -25,7 +25,15 @@ struct Row {
 
 }  // namespace
 
-Warning FeltJitter::warning() const {
+Warning FeltJitter::unexplained() const {
+  return {
+      "speeds_jitter",
+      fmt::format("rotor speeds jump from row to row as no command says, and the vehicle feels {:.0f} % of "
+                  "that: no cause of the catalogue does this, and it hides what is small",
+                  100 * std::min(share, 1.0))};
+}
+
+Warning FeltJitter::taken_as_input() const {
   return {"speeds_jitter",
           fmt::format(
               "rotor speeds jump from row to row as no command says, and the vehicle feels {:.0f} % of that: "

@@ -201,7 +201,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     fit.smoother.reset();
     Result by_speeds = refine_flight(vehicle, without_commands(logs), options);
     std::erase_if(by_speeds.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
-    by_speeds.warnings.push_back(jitter.warning());
+    by_speeds.warnings.push_back(jitter.taken_as_input());
     return by_speeds;
   }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);

@@ -74,15 +74,6 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
          chunk_for(record, search.form.noise) < kShorter * search.best.fit.chunk_seconds;
 }
 
-// By the speeds of rotors that jump as no command says.
-Diagnosis by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options,
-                    const FeltJitter& jitter) {
-  Diagnosis out = diagnose_gap(vehicle, without_commands(logs), options);
-  std::erase_if(out.result.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
-  out.result.warnings.push_back(jitter.warning());
-  return out;
-}
-
 // How a flight is looked at: first; closer, with gusts in steps as short as a refinement has them; or as at
 // first where that told nothing.
 enum class Look { first, closer, last };
@@ -98,9 +89,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
                                      look == Look::closer, options.progress};
   SearchResult search = search_causes(record, vehicle, p, search_options);
-  if (const FeltJitter jitter = felt_jitter(record, *search.best.theta, search.best.fit);
-      jitter.matters() && may_do_without_commands(logs, {}))
-    return by_speeds(vehicle, logs, options, jitter);
+  const FeltJitter jitter = felt_jitter(record, *search.best.theta, search.best.fit);
   const Eigen::VectorXd moved = moved_by_rougher_speeds(record, *search.best.theta, search.best.fit);
   const std::vector<std::string> loose = depend_on_smoothing(search.best, moved);
   search.best.fit.covariance += moved * moved.transpose();
@@ -170,6 +159,10 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
   if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
+  if (jitter.matters()) {
+    result.warnings.push_back(jitter.unexplained());
+    verdict = with_jitter(std::move(verdict));
+  }
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},

@@ -88,4 +88,12 @@ Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
   return verdict;
 }
 
+Judged with_jitter(Judged verdict) {
+  if (verdict.status == "unknown")
+    verdict.sentence +=
+        " Rotor speeds jump from row to row as no command says, and the vehicle feels it: that may be all of "
+        "it.";
+  return verdict;
+}
+
 }  // namespace ident

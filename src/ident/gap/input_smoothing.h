@@ -30,4 +30,7 @@ double refitted_error(const FittedModel& model, const FlightRecord& record, cons
 Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
                         const std::vector<std::string>& small, const GapClosed& gap, double without);
 
+/// The verdict on logs whose rotors jump as no command says: where nothing explains them, that may be why.
+Judged with_jitter(Judged verdict);
+
 }  // namespace ident
