@@ -1,6 +1,9 @@
 // Input of the bench commands, and where their estimates go.
 #include "bench.h"
 
+#include <utility>
+
+#include "campaign_priors.h"
 #include "ident/io/vehicle_file.h"
 
 namespace ident::app {
@@ -38,8 +41,10 @@ BenchInput bench_input(const BenchOptions& options, const TableSchema& schema, c
 }
 
 void store_in_campaign(const BenchInput& input, const Result& result, Context& context) {
-  if (input.campaign)
-    context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
+  if (!input.campaign) return;
+  if (std::string replaced = replaced_by_bench(*input.campaign, result); !replaced.empty())
+    context.notices.push_back(std::move(replaced));
+  context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
 }
 
 }  // namespace ident::app

@@ -4,62 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <set>
 #include <span>
 #include <utility>
 
+#include "campaign_priors.h"
 #include "ident/core/parallel.h"
 #include "ident/io/read_flight_log.h"
 #include "ident/io/sha256.h"
 #include "ident/io/vehicle_file.h"
-#include "ident/report/campaign_report.h"
 
 namespace ident::app {
 namespace {
-
-constexpr std::array<std::string_view, 3> kBench{"thrust", "motor", "inertia"};
-
-bool used_any(const Result& result, const std::vector<CampaignLog>& logs) {
-  return std::ranges::any_of(logs, [&](const CampaignLog& log) {
-    return std::ranges::find(result.inputs, log.file) != result.inputs.end();
-  });
-}
-
-/// The campaign's vehicle. Estimates that a refinement of one of these logs stored give way to those of the
-/// bench.
-Vehicle known_vehicle(const Campaign& campaign, const std::vector<CampaignLog>& logs, Model model,
-                      Context& context) {
-  const std::vector<Result> results = model == Model::as_stored ? std::vector<Result>() : stored_results(".");
-  const auto refined = std::ranges::find_if(results, [&](const Result& r) {
-    return r.command == "flightlog" && !r.parameters.empty() && used_any(r, logs);
-  });
-  if (refined == results.end() || !std::filesystem::exists(campaign.parameters))
-    return campaign_vehicle(campaign);
-  Vehicle found = read_vehicle(campaign.parameters), vehicle = read_vehicle(campaign.vehicle);
-  // What was known before them, which may be what other logs told.
-  std::set<std::string> restored;
-  for (const Parameter& p : refined->parameters) {
-    const auto stored = found.parameters.find(p.name);
-    if (stored == found.parameters.end() || stored->second.value != p.value) continue;
-    restored.insert(p.name);
-    if (p.prior_value && p.prior_std)
-      stored->second = {*p.prior_value, *p.prior_std};
-    else
-      found.parameters.erase(stored);
-  }
-  const auto is_restored = [&](const std::string& name) { return restored.contains(name); };
-  found.correlation = found.correlation.part([&](const std::string& name) { return !is_restored(name); })
-                          .beside(refined->prior_correlation.part(is_restored));
-  for (const Result& result : results)
-    if (std::ranges::find(kBench, result.command) != kBench.end()) vehicle = with_result(vehicle, result);
-  context.notices.push_back(
-      "priors: what was known before the stored refinement, which used these logs already");
-  return with_parameters(vehicle, found);
-}
 
 bool same_samples(std::span<const std::vector<double>> a, std::span<const std::vector<double>> b) {
   return std::ranges::equal(a, b, [](const std::vector<double>& x, const std::vector<double>& y) {
@@ -137,7 +95,11 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
     input.vehicle = read_vehicle(options.vehicle);
     context.used.push_back(options.vehicle);
   } else if (campaign) {
-    input.vehicle = known_vehicle(*campaign, logs, model, context);
+    CampaignPriors priors = model == Model::as_stored ? as_stored(*campaign) : before_logs(*campaign, logs);
+    input.vehicle = std::move(priors.vehicle);
+    input.warnings = std::move(priors.warnings);
+    input.priors = priors.as_json();
+    context.notices.insert(context.notices.end(), priors.notices.begin(), priors.notices.end());
     context.used.insert(context.used.end(), {campaign->file, campaign->vehicle, campaign->parameters});
     context.shown = Shown::pictures;  // the result is kept for the report of the campaign
   } else {

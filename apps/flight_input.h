@@ -26,6 +26,8 @@ struct FlightInput {
   Vehicle vehicle;
   std::vector<FlightLog> logs;
   std::optional<Campaign> campaign;  ///< set when the logs came from it: results are stored there
+  nlohmann::ordered_json priors;     ///< where what is known comes from, for the stored result
+  std::vector<Warning> warnings;     ///< of that
 };
 
 /// Reads them; without a file the campaign's logs, without --vehicle its vehicle. Throws UsageError when

@@ -42,6 +42,8 @@ Outcome run(const Options& options, Context& context) {
   refine.shown = context.shown;
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
+  result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
+  if (input.campaign) result.extra["priors"] = input.priors;
   const bool simulated = !result.has_warning("no_turning");
   if (result.has_warning("speeds_jitter")) input.logs = without_commands(input.logs);
   if (refine.shown != Shown::numbers && simulated) verify_too(result, input, options.horizon);

@@ -31,7 +31,7 @@ TEST(Campaign, WhatIsStatedOtherwiseSinceIsNamed) {
   ASSERT_EQ(vehicle.warnings.size(), 1U);
   EXPECT_EQ(vehicle.warnings[0].code, "stated_otherwise");
   for (const char* part :
-       {"found.yaml: m = 0.50210", "quad.yaml states 0.5200", "18 of its standard deviations"})
+       {"found.yaml: m = 0.50210", "takes the place of 0.5200", "15 standard deviations off"})
     EXPECT_NE(vehicle.warnings[0].message.find(part), std::string::npos) << vehicle.warnings[0].message;
 }
 

@@ -46,6 +46,40 @@ TEST(VehicleCorrelations, AreWrittenOfWhatIsWrittenOnly) {
   EXPECT_EQ(vehicle_to_yaml(v).find("correlations"), std::string::npos);
 }
 
+TEST(VehicleCorrelations, NamesAreThoseThatTheFileHas) {
+  const std::string file = write_text(test_folder(), "keys.yaml",
+                                      "mass: {value: 0.5, std: 0.001}\n"
+                                      "arm: {value: 0.17, std: 0.001}\n"
+                                      "layout: 4sp\n"
+                                      "slant_deg: {value: 5.7, std: 0.1}\n"
+                                      "parameters:\n"
+                                      "  rotor_mismatch.rotor: 2\n"
+                                      "  rotor_mismatch.ratio: {value: 0.97, std: 0.01}\n"
+                                      "correlations:\n"
+                                      "  mass: {arm: 0.1, slant_deg: 0.2, rotor_mismatch.ratio: 0.3}\n");
+  const Correlation read = read_vehicle(file).correlation;
+  EXPECT_EQ(read.of("m", "l"), 0.1);
+  EXPECT_EQ(read.of("m", "alpha"), 0.2);
+  EXPECT_EQ(read.of("m", "rotor_mismatch.ratio@2"), 0.3);
+}
+
+// As a parameter file out of which somebody took a line.
+TEST(VehicleCorrelations, OfWhatAFileDoesNotStateAreLeftOut) {
+  const std::string file = write_text(test_folder(), "shorter.yaml",
+                                      "parameters:\n"
+                                      "  kT: {value: 6e-6, std: 2e-7}\n"
+                                      "  kQ: {value: 9e-8, std: 2e-9}\n"
+                                      "  km: 800\n"
+                                      "correlations:\n"
+                                      "  kT: {km: -0.9, kQ: 0.5, Jxx: 0.3}\n"
+                                      "  km: {kQ: 0.2, Jxx: 0.1}\n");
+  const Vehicle read = read_vehicle(file);
+  EXPECT_EQ(read.correlation.names, (std::vector<std::string>{"kT", "kQ"}));
+  ASSERT_EQ(read.warnings.size(), 2U);  // one for each name
+  EXPECT_NE(read.warnings[0].message.find("no standard deviation of km"), std::string::npos);
+  EXPECT_NE(read.warnings[1].message.find("no standard deviation of Jxx"), std::string::npos);
+}
+
 Result found(const std::vector<std::string>& names, double r) {
   Result result;
   const auto n = static_cast<Eigen::Index>(names.size());

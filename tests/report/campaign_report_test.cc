@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ident/core/error.h"
+#include "ident/report/stored_result.h"
 
 namespace ident {
 namespace {
@@ -83,6 +84,42 @@ TEST_F(CampaignReport, CountsTheLastResultOfAParameterUnlessItKnowsLess) {
   ASSERT_EQ(summary.parameters.size(), 2U);
   EXPECT_EQ(summary.find("kT")->source, "flightlog");
   EXPECT_EQ(summary.find("m")->source, "prior");
+}
+
+// kT of a flight that tells kT km^2 only: what the parameter file holds is shown, and it is known by the
+// bench.
+TEST_F(CampaignReport, ShowsWhatTheParameterFileHolds) {
+  const Parameter bench{.name = "kT", .value = 6e-6, .std = 1e-7, .source = "thrust"};
+  const Parameter both{.name = "kT",
+                       .value = 6.1e-6,
+                       .std = 9e-8,
+                       .identifiable = false,
+                       .source = "flightlog",
+                       .note = "these logs say little",
+                       .joint = true};
+  keep("thrust", {bench});
+  keep("flightlog", {both}, true);
+  Vehicle vehicle;
+  vehicle.parameters["kT"] = {both.value, both.std};
+  const Parameter shown = *campaign_summary(vehicle, stored_results(folder_.string())).find("kT");
+  EXPECT_EQ(shown.value, both.value);
+  EXPECT_TRUE(shown.identifiable);
+  EXPECT_EQ(shown.source, "thrust, flightlog");
+  EXPECT_TRUE(shown.note.empty());
+  vehicle.parameters["kT"] = {bench.value, bench.std};  // the sweeps were measured again
+  EXPECT_EQ(campaign_summary(vehicle, stored_results(folder_.string())).find("kT")->value, bench.value);
+}
+
+TEST_F(CampaignReport, ReadsWhatAnOlderVersionStored) {
+  Result result;
+  result.command = "thrust";
+  result.parameters = {{.name = "kT", .value = 6e-6, .std = 1e-7, .source = "thrust"}};
+  nlohmann::ordered_json older = stored_json(result);
+  older.erase("prior_correlation"), older.erase("prior_correlation_names");
+  older["parameters"][0].erase("joint");
+  EXPECT_EQ(result_from_json(older).find("kT")->value, 6e-6);
+  older.erase("verdict");
+  EXPECT_THROW(result_from_json(older), nlohmann::json::exception);
 }
 
 }  // namespace

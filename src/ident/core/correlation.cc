@@ -36,4 +36,9 @@ Correlation Correlation::beside(const Correlation& other) const {
   return out;
 }
 
+Correlation Correlation::renewed(const Correlation& found,
+                                 const std::function<bool(const std::string&)>& is_new) const {
+  return part([&](const std::string& name) { return !is_new(name); }).beside(found.part(is_new));
+}
+
 }  // namespace ident

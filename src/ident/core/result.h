@@ -33,6 +33,7 @@ struct Parameter {
   std::string note;                   ///< why not identifiable, in words
   /// Not identifiable by itself, and yet of one model with what is: known together, they are stored together.
   bool joint = false;
+  bool known_together = false;  ///< with others, before: the pull is that against what was known of them all
 
   /// Nothing to be used, whatever its deviation says.
   void doubt(std::string why) {

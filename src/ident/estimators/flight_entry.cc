@@ -98,6 +98,7 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   };
   FlightEntry entry;
+  tell(vehicle.warnings);
   entry.p = starting_constants(vehicle, given_logs, result.warnings);
   entry.record = make_flight_record(vehicle, entry.p, given_logs);
   const std::vector<FlightLog> still =

@@ -40,7 +40,7 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
   meat = meat * (n / (n - 1)) + prior;
   const MatrixXd sandwich = fit.naive_covariance * meat * fit.naive_covariance;
   // Nothing is known worse with the flight than without it.
-  const VectorXd most = prior.diagonal().cwiseProduct(fit.naive_covariance.diagonal()).cwiseInverse();
+  const VectorXd most = inverse_of(prior).diagonal().cwiseQuotient(fit.naive_covariance.diagonal());
   const VectorXd stretch = sandwich.diagonal()
                                .cwiseQuotient(fit.naive_covariance.diagonal())
                                .cwiseMin(most)

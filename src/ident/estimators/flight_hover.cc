@@ -43,6 +43,7 @@ std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants, He
     if (which == Held::unstated && c.prior_std) continue;
     if (!c.prior_std) c.prior_value = c.start;
     c.prior_std = kHeld * c.prior_std.value_or(std::abs(c.unit()));
+    know_alone(constants, c.index);
   }
   return held;
 }

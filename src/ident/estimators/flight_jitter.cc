@@ -25,20 +25,12 @@ struct Row {
 
 }  // namespace
 
-Warning FeltJitter::unexplained() const {
+Warning FeltJitter::warning(const std::string& consequence) const {
   return {
       "speeds_jitter",
       fmt::format("rotor speeds jump from row to row as no command says, and the vehicle feels {:.0f} % of "
-                  "that: no cause of the catalogue does this, and it hides what is small",
-                  100 * std::min(share, 1.0))};
-}
-
-Warning FeltJitter::taken_as_input() const {
-  return {"speeds_jitter",
-          fmt::format(
-              "rotor speeds jump from row to row as no command says, and the vehicle feels {:.0f} % of that: "
-              "the speeds are taken for what the rotors do, and nothing is said of the motors",
-              100 * std::min(share, 1.0))};
+                  "that: {}",
+                  100 * std::min(share, 1.0), consequence)};
 }
 
 bool may_do_without_commands(std::span<const FlightLog> logs, std::span<const std::string> free) {

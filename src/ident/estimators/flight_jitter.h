@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ident/core/result.h"
@@ -24,10 +25,8 @@ struct FeltJitter {
   bool matters() const {
     return share > 0.5 && share < 1.5 && share > 8 * std && size > 3e-3 && neighbours < -0.25;
   }
-  /// Of a refinement that takes the speeds for what the rotors do.
-  Warning taken_as_input() const;
-  /// Of a diagnosis: by speeds it tells no more, what they do between their samples being as large.
-  Warning unexplained() const;
+  /// What was seen, and what comes of it.
+  Warning warning(const std::string& consequence) const;
 };
 
 /// Nothing is felt where logs lack commands, rotor speeds or specific force.

@@ -30,6 +30,9 @@ VectorXd PriorTerms::whitened() const { return Eigen::LLT<MatrixXd>(precision).m
 PriorTerms PriorTerms::loosened(Index at, double factor) const {
   PriorTerms out = *this;
   out.residual[at] /= factor, out.slope[at] /= factor;
+  out.precision -= precision.col(at) * precision.row(at) / precision(at, at);
+  out.precision.row(at).setZero(), out.precision.col(at).setZero();
+  out.precision(at, at) = 1.0;
   return out;
 }
 

@@ -22,7 +22,8 @@ struct PriorTerms {
   Eigen::MatrixXd root() const;
   Eigen::VectorXd whitened() const;
 
-  /// With `factor` times the standard deviation of one of them.
+  /// With `factor` times the standard deviation of one of them, which is known by itself then; what is known
+  /// of the others stays.
   PriorTerms loosened(Eigen::Index at, double factor) const;
   /// With further unknowns, known to be zero within a unit.
   PriorTerms extended(Eigen::Index size) const;

@@ -34,8 +34,6 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
 
-constexpr double kMoved = 1e-6;  // of what was known
-
 nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
   nlohmann::ordered_json std = nlohmann::ordered_json::array(), time = std;
   for (const ColouredNoise& axis : noise) std.push_back(axis.sigma), time.push_back(axis.tau);
@@ -43,105 +41,6 @@ nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
 }
 
 }  // namespace
-
-std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit,
-                                         const std::string& source) {
-  std::vector<Parameter> out;
-  for (int i = 0; i < theta.constants_count(); ++i) {
-    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    if (c.watched) continue;
-    Parameter p;
-    p.name = c.name;
-    p.value = theta.physical(fit.u, i);
-    p.std = theta.deviation(fit.u, i, fit.covariance);
-    p.naive_std = theta.deviation(fit.u, i, fit.naive_covariance);
-    p.unit = parameter_unit(c.name);
-    p.source = source;
-    // In the logarithm for positive constants: the interval stays positive.
-    const double z = 1.96 * std::sqrt(fit.covariance(i, i));
-    p.ci95 = c.positive && z < 3 && !c.prior_std ? std::array{p.value * std::exp(-z), p.value * std::exp(z)}
-                                                 : std::array{p.value - 1.96 * p.std, p.value + 1.96 * p.std};
-    if (c.prior_std) {
-      p.prior_value = c.prior_value, p.prior_std = *c.prior_std;
-      const double ratio = std::min(*p.naive_std / *c.prior_std, 1.0);
-      p.from_flight = 1 - ratio * ratio;
-      // The pull compares the two sources of information: what the flight alone would say (naive variance v,
-      // in truth `colour` times that) with what was stated. The estimate moves by a share of their
-      // difference.
-      const double stated = *c.prior_std * *c.prior_std, share = std::max(1 - ratio * ratio, 1e-4);
-      const double alone = stated * (1 - share) / share, colour = std::pow(p.std / *p.naive_std, 2);
-      p.pull = (p.value - c.prior_value) / (share * std::sqrt(stated + colour * alone));
-      p.identifiable = p.std < 0.5 * *c.prior_std;
-    } else {
-      p.from_flight = 1.0;
-      // What is zero for most vehicles is known by its usual size.
-      const bool mostly_zero = c.index == param::dead_time || c.index == param::Omega_0;
-      p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
-    }
-    const bool told = c.prior_std ? std::abs(p.value - c.prior_value) > kMoved * *c.prior_std
-                                  : p.std < std::abs(p.value) && c.name.find('.') == std::string::npos;
-    p.joint = !p.identifiable && told;
-    if (!p.identifiable)
-      p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
-    out.push_back(p);
-  }
-  return out;
-}
-
-Correlation flight_correlation(const Theta& theta, const Eigen::MatrixXd& covariance) {
-  Correlation out;
-  std::vector<Eigen::Index> at;
-  for (int i = 0; i < theta.constants_count(); ++i) {
-    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    if (!c.watched && c.times < 0) out.names.push_back(c.name), at.push_back(i);
-  }
-  const VectorXd s = covariance.diagonal()(at).cwiseSqrt().cwiseInverse();
-  out.matrix = s.asDiagonal() * covariance(at, at) * s.asDiagonal();
-  return out;
-}
-
-std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
-                                      const std::vector<Parameter>& parameters) {
-  std::vector<std::string> out;
-  const auto usable = [&](std::size_t i) {
-    return theta.constants()[i].positive && !parameters[i].identifiable;
-  };
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      if (i == k || !usable(i) || !usable(k)) continue;
-      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
-      const double vi = fit.covariance(a, a), vk = fit.covariance(b, b), c = fit.covariance(a, b);
-      // log(x_i) + e log(x_k) has the least variance for e = -c/vk; a simple exponent that leaves little is a
-      // finding.
-      for (const double e : {1.0, 2.0, -1.0, -2.0}) {
-        const double v = vi + 2 * e * c + e * e * vk;
-        if (v > 0.04 * std::min(vi, e * e * vk) || (std::abs(e) == 1.0 && i > k)) continue;
-        const std::string power = std::abs(e) == 2 ? "^2" : "";
-        const std::string both = e > 0 ? parameters[i].name + " " + parameters[k].name + power
-                                       : parameters[i].name + "/" + parameters[k].name + power;
-        out.push_back(fmt::format("{} and {} only as {}", parameters[i].name, parameters[k].name, both));
-      }
-    }
-  }
-  return out;
-}
-
-bool disagrees(const Parameter& p) {
-  const bool heard = p.from_flight && *p.from_flight > 0.05;  // else flight has no say in it
-  return p.pull && heard && std::abs(*p.pull) > 3;
-}
-
-void warn_of_disagreement(Result& result, std::string_view advice) {
-  for (const Parameter& p : result.parameters)
-    if (disagrees(p))
-      result.warn(
-          "prior_disagrees",
-          fmt::format(
-              "{}: flight says {}, the value given beforehand was {} ({:+.1f} standard deviations): one of "
-              "the two is wrong, or {}",
-              p.name, format_with_uncertainty(p.value, p.std),
-              format_with_uncertainty(*p.prior_value, *p.prior_std), *p.pull, advice));
-}
 
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   warn_of_disagreement(result, "the model lacks an effect (try ident gap)");
@@ -201,7 +100,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     fit.smoother.reset();
     Result by_speeds = refine_flight(vehicle, without_commands(logs), options);
     std::erase_if(by_speeds.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
-    by_speeds.warnings.push_back(jitter.taken_as_input());
+    by_speeds.warnings.push_back(
+        jitter.warning("the speeds are taken for what the rotors do, and nothing is said of the motors"));
     return by_speeds;
   }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
@@ -211,6 +111,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   body.smoother.reset(), body.u = nearest_body(theta, fit);
   result.parameters = flight_parameters(theta, body, "flightlog");
   as_before_flight(result.parameters, known, held);
+  result.prior_correlation =
+      vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
   const SteadyPush push = steady_push(record, fit);
@@ -251,8 +153,6 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
         result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
                                               names[static_cast<std::size_t>(k)],
                                               names[static_cast<std::size_t>(i)], correlation(i, k)));
-  result.prior_correlation =
-      vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   if (options.shown != Shown::numbers) {
     result.sections.push_back(data_health(record, logs, fit.noise, vibration));
     if (!thrust.empty()) result.sections.push_back(thrust_section(thrust));

@@ -10,6 +10,7 @@
 #include "ident/core/shown.h"
 #include "ident/data/flight_log.h"
 #include "ident/estimators/flight_fit.h"
+#include "ident/estimators/flight_parameters.h"
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_vibration.h"
 
@@ -30,24 +31,6 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
 /// `ident flightlog`: the vehicle as stated against the logs over short windows, as [Phang] verifies his
 /// model: RMS, fit in percent and Theil's inequality coefficient per channel.
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
-
-/// Shared by refinement and diagnosis: the estimates of a fit as parameters of a result, in the
-/// order of the constants; watched ones, which come last, are left out.
-std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit, const std::string& source);
-
-/// Correlation of those estimates, from the covariance of the unknowns. What moves as a product with another
-/// constant (a payload's place) is left out.
-Correlation flight_correlation(const Theta& theta, const Eigen::MatrixXd& covariance);
-
-/// What the data tell only in combination, in words ("kT and km only as kT km^2").
-std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
-                                      const std::vector<Parameter>& parameters);
-
-/// Whether flight says another value than was given beforehand, by more than 3 standard deviations.
-bool disagrees(const Parameter& p);
-
-/// Warns of those that do; `advice`: what else it may be.
-void warn_of_disagreement(Result& result, std::string_view advice);
 
 /// Warns where the flight disagrees with what was known beforehand, and of what it does not determine.
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit);

@@ -17,6 +17,8 @@ using Eigen::MatrixXd;
 // Below this share of what is stated, what is positive is held along its logarithm: against a loose prior it
 // would otherwise vanish for the price of a few deviations, and with it what the flight says of all else.
 constexpr double kVanishing = 0.1;
+// Correlation from which on it matters that a product is known and no sum.
+constexpr double kTogether = 0.1;
 
 EffectMask effect_of(int slot) {
   for (const EffectEntry& e : catalogue())
@@ -53,6 +55,11 @@ Theta::Theta(std::vector<double> p, std::vector<FreeConstant> constants, int log
       gyro_bias_std_(gyro_bias_std) {
   for (const FreeConstant& c : constants_) p_[static_cast<std::size_t>(c.index)] = c.start;
   prior_precision_ = precision_of(constants_, size());
+  for (const FreeConstant& c : constants_)
+    prior_in_logarithms_.push_back(c.positive && c.times < 0 && c.prior_value > 0 &&
+                                   std::ranges::any_of(c.known_with, [](const auto& other) {
+                                     return std::abs(other.second) > kTogether;
+                                   }));
 }
 
 std::string Theta::name(int i) const {
@@ -124,12 +131,6 @@ std::vector<Seed> Theta::seeds(const Eigen::VectorXd& u, int log) const {
   return seeds;
 }
 
-// Whether what is known of a constant is normal in its logarithm.
-bool Theta::in_logarithms(int i) const {
-  const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
-  return c.positive && !c.known_with.empty() && c.prior_value > 0 && factor(i) < 0;
-}
-
 PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
   PriorTerms terms{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(size()), prior_precision_};
   for (int i = 0; i < size(); ++i) {
@@ -138,7 +139,7 @@ PriorTerms Theta::prior(const Eigen::VectorXd& u) const {
       const FreeConstant& c = constants_[static_cast<std::size_t>(i)];
       if (!c.prior_std) continue;
       std = *c.prior_std, value = c.prior_value;
-      if (in_logarithms(i)) {
+      if (prior_in_logarithms_[static_cast<std::size_t>(i)]) {
         terms.residual[i] = std::log(physical(u, i) / value) * value / std;
         terms.slope[i] = value / std;
         continue;
@@ -258,6 +259,14 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
     add(*info);
   }
   return free;
+}
+
+void know_alone(std::vector<FreeConstant>& constants, int index) {
+  for (FreeConstant& c : constants)
+    if (c.index == index)
+      c.known_with.clear();
+    else
+      std::erase_if(c.known_with, [&](const auto& other) { return other.first == index; });
 }
 
 void leave_out_motors(std::vector<FreeConstant>& constants) {

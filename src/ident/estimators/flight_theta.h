@@ -66,7 +66,6 @@ class Theta {
  private:
   int factor(int i) const;
   double slope_over_factor(const Eigen::VectorXd& u, int i) const;
-  bool in_logarithms(int i) const;
 
   std::vector<double> p_;
   std::vector<FreeConstant> constants_;
@@ -74,6 +73,7 @@ class Theta {
   bool gyro_;
   double gyro_bias_std_;
   Eigen::MatrixXd prior_precision_;
+  std::vector<bool> prior_in_logarithms_;  ///< of each constant
 };
 
 /// The constants of a vehicle that a refinement frees: those with a standard deviation or without a value
@@ -87,6 +87,10 @@ double typical_scale(int index, const Vehicle& vehicle, const std::vector<double
 /// Distance from its null value beyond which an effect's constant is not physical on this vehicle; infinite
 /// for any other.
 double physical_limit(const FreeConstant& constant);
+
+/// Parts one constant (its model index) from those that it is known together with: what is known of them
+/// stays, whatever becomes of it. For one that is held or freed of what was stated of it.
+void know_alone(std::vector<FreeConstant>& constants, int index);
 
 /// Takes out the constants from command to rotor speed, of which logs without commands say nothing.
 void leave_out_motors(std::vector<FreeConstant>& constants);

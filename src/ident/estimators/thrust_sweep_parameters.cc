@@ -129,23 +129,27 @@ void add_motor(Result& result, const Files& files) {
 
 }  // namespace
 
-double thrust_torque_correlation(const std::vector<SweepFile>& files) {
+double thrust_torque_covariance(const std::vector<SweepFile>& files) {
   double covariance = 0.0, thrust = 0.0, torque = 0.0;
   for (const SweepFile& file : files) {
-    if (!file.has_torque()) continue;
     const LeastSquaresFit& fit = file.fit.fit;
-    const Eigen::Index T = fit.index("kT"), Q = fit.index("kQ");
-    const double u = 1.0 / fit.covariance(T, T), v = 1.0 / fit.covariance(Q, Q);
-    covariance += u * v * fit.covariance(T, Q), thrust += u, torque += v;
+    const Eigen::Index T = fit.index("kT");
+    const double u = 1.0 / fit.covariance(T, T);
+    thrust += u;
+    if (!file.has_torque()) continue;
+    const Eigen::Index Q = fit.index("kQ");
+    const double v = 1.0 / fit.covariance(Q, Q);
+    covariance += u * v * fit.covariance(T, Q), torque += v;
   }
-  return covariance / std::sqrt(thrust * torque);
+  return covariance / (thrust * torque);
 }
 
 void add_sweep_parameters(Result& result, const std::vector<SweepFile>& files, const ThrustOptions& options) {
   result.parameters.push_back(*over_files(files, "kT", "N s^2/rad^2", thrust_fit, result.warnings));
   if (auto kQ = over_files(files, "kQ", "N m s^2/rad^2", torque_fit, result.warnings)) {
     result.parameters.push_back(*kQ);
-    const double rho = thrust_torque_correlation(files);
+    const double rho = std::clamp(
+        thrust_torque_covariance(files) / (result.find("kT")->std * result.find("kQ")->std), -1.0, 1.0);
     result.correlation = {{"kT", "kQ"}, Eigen::Matrix2d{{1.0, rho}, {rho, 1.0}}};
   }
   add_rotor(result, options, result.correlation.of("kT", "kQ"));

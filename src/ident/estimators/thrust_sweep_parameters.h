@@ -7,8 +7,8 @@
 
 namespace ident {
 
-/// Correlation of kT and kQ, over files weighted as they are pooled.
-double thrust_torque_correlation(const std::vector<SweepFile>& files);
+/// Covariance of kT and kQ, over files weighted as they are pooled; some may have no torque.
+double thrust_torque_covariance(const std::vector<SweepFile>& files);
 
 /// kT, kQ, CT, CQ, figure_of_merit, km, Omega_0 and the motor's constants, with the warnings that come with
 /// them.

@@ -9,7 +9,7 @@
 #include <initializer_list>
 
 #include "ident/estimators/flight_impossible.h"
-#include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_parameters.h"
 #include "ident/gap/further.h"
 #include "ident/gap/impossible_size.h"
 
@@ -206,8 +206,9 @@ const Parameter* contradicted(const std::vector<Parameter>& fitted,
   const Parameter* worst = nullptr;
   double most = kContradicts;
   for (const Parameter& p : fitted) {
-    const bool heard = p.from_flight && *p.from_flight > 0.05;
-    const bool off = p.prior_value && std::abs(p.value - *p.prior_value) > kOff * p.prior_std.value_or(1e300);
+    const bool heard = p.known_together || (p.from_flight && *p.from_flight > 0.05);
+    const bool off = p.known_together || (p.prior_value && std::abs(p.value - *p.prior_value) >
+                                                               kOff * p.prior_std.value_or(1e300));
     if (!p.pull || !heard || !off || !(std::abs(*p.pull) > most) || excused("parameter:" + p.name)) continue;
     worst = &p, most = std::abs(*p.pull);
   }

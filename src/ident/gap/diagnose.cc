@@ -145,6 +145,8 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
     std::vector<FreeConstant> held = known;
     as_before_flight(result.parameters, known, hold_for_hover(held));
   }
+  result.prior_correlation =
+      vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
   doubt_negative_dead_time(result);
   warn_of_disagreement(result, "something that no cause found explains takes its place");
@@ -160,7 +162,8 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
   if (jitter.matters()) {
-    result.warnings.push_back(jitter.unexplained());
+    result.warnings.push_back(
+        jitter.warning("no cause of the catalogue does this, and it hides what is small"));
     verdict = with_jitter(std::move(verdict));
   }
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};

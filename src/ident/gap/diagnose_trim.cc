@@ -94,7 +94,11 @@ Fitted fitted(const FlightRecord& record, const Trim& trim, const std::vector<do
   out.model.constants = constants;
   out.model.adopted = std::move(adopted);
   for (const Candidate& c : out.model.adopted)
-    if (c.parameter >= 0) *constants[static_cast<std::size_t>(c.parameter)].prior_std *= 100;
+    if (c.parameter >= 0) {
+      FreeConstant& freed = constants[static_cast<std::size_t>(c.parameter)];
+      *freed.prior_std *= 100;
+      know_alone(constants, freed.index);
+    }
   out.model.theta = std::make_shared<Theta>(p, std::move(constants), record.logs, false);
   out.trim = fit_trim(record, trim, *out.model.theta, false, like);
   out.model.fit = out.trim.fit;

@@ -7,7 +7,7 @@
 #include "ident/core/error.h"
 #include "ident/effects/catalogue.h"
 #include "ident/estimators/flight_inertia.h"
-#include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_parameters.h"
 
 namespace ident {
 namespace {
@@ -42,6 +42,7 @@ FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> a
     if (c.parameter >= 0) {
       FreeConstant& f = freed[static_cast<std::size_t>(c.parameter)];
       f.prior_std = 100 * f.prior_std.value_or(std::abs(f.start));
+      know_alone(freed, f.index);
     }
   model.theta = std::make_shared<Theta>(p, freed, record.logs, record.signals.rates);
   try {
@@ -68,9 +69,9 @@ Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
     out.parameters[name] = {value, theta.deviation(u, i, model.fit.covariance)};
     refitted.insert(name);
   }
-  const auto is_refitted = [&](const std::string& name) { return refitted.contains(name); };
-  out.correlation = vehicle.correlation.part([&](const std::string& name) { return !is_refitted(name); })
-                        .beside(flight_correlation(theta, model.fit.covariance).part(is_refitted));
+  out.correlation =
+      vehicle.correlation.renewed(flight_correlation(theta, model.fit.covariance),
+                                  [&](const std::string& name) { return refitted.contains(name); });
   for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
   return out;
 }

@@ -127,7 +127,10 @@ FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRec
                           const std::vector<double>& p, const FlightFitOptions& options) {
   std::vector<FreeConstant> held = base;
   for (FreeConstant& c : held)
-    if ((c.index == param::omega_m || c.index == param::zeta_m) && c.prior_std) *c.prior_std *= 0.03;
+    if ((c.index == param::omega_m || c.index == param::zeta_m) && c.prior_std) {
+      *c.prior_std *= 0.03;
+      know_alone(held, c.index);
+    }
   FittedModel model = fitted(held, {}, record, p, options);
   model.constants = base;
   return model;

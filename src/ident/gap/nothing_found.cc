@@ -8,7 +8,7 @@
 #include <string>
 
 #include "ident/core/format_number.h"
-#include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_parameters.h"
 #include "ident/gap/against_naming.h"
 
 namespace ident {

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "ident.yaml";
-constexpr double kCorrected = 5.0;  // standard deviations: no estimate of the same constant is that far off
+constexpr double kCorrected = 5.0;  // standard deviations, beyond what chance does
 const std::vector<std::string> kKeys = {"vehicle", "parameters", "thrust", "motor", "inertia", "map", "logs"};
 
 /// The path of a file that a value names; it has to exist unless it is still to be written.
@@ -54,14 +54,17 @@ std::vector<Warning> stated_otherwise(const Vehicle& vehicle, const Vehicle& fou
   for (const auto& [name, known] : found.parameters) {
     const auto stated = vehicle.parameters.find(name);
     if (stated == vehicle.parameters.end() || !stated->second.std) continue;
-    const double off = std::abs(known.value - stated->second.value) / *stated->second.std;
+    const double off = std::abs(known.value - stated->second.value) /
+                       std::hypot(*stated->second.std, known.std.value_or(0.0));
     if (!(off > kCorrected)) continue;
     warnings.push_back(
         {"stated_otherwise",
-         fmt::format("{}: {} = {} is taken, {} states {}, which is {:.0f} of its standard deviations off. If "
-                     "that was corrected since, run the commands that found the other again.",
-                     found.file, name, format_with_uncertainty(known.value, known.std.value_or(kNaN)),
-                     vehicle.file, format_with_uncertainty(stated->second.value, *stated->second.std), off)});
+         fmt::format(
+             "{}: {} = {} takes the place of {} in {}, {:.0f} standard deviations off. If the latter was "
+             "corrected since, run `ident flightlog --refine` again, or take {} out of {}.",
+             found.file, name, format_with_uncertainty(known.value, known.std.value_or(kNaN)),
+             format_with_uncertainty(stated->second.value, *stated->second.std), vehicle.file, off, name,
+             found.file)});
   }
   return warnings;
 }

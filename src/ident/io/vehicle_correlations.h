@@ -9,9 +9,10 @@
 
 namespace ident {
 
-/// Reads `correlations: {kT: {km: -0.99}}` of a file whose parameters are read: each pair once, of
-/// parameters of this file with a standard deviation. Throws InputError, for what no covariance can be too.
-Correlation read_correlations(const YamlValue& file, const Vehicle& vehicle);
+/// Reads `correlations: {kT: {km: -0.99}}` of a file whose parameters are read: each pair once, under the
+/// names that the file has for them. Pairs of what it states no standard deviation of are left out with a
+/// warning. Throws InputError for what is no parameter, and for what no covariance can be.
+void read_correlations(const YamlValue& file, Vehicle& vehicle);
 
 /// The same as text, one line for each name; those of `left_out` and of what the vehicle does not hold with a
 /// standard deviation are not written.

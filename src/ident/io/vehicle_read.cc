@@ -211,7 +211,7 @@ Vehicle read_vehicle(const std::string& path, VehicleUse use) {
   if (file.has("rotors")) read_rotors(file, vehicle);
   if (file.has("layout")) read_layout(file, vehicle);
   if (file.has("slant_deg") && !file.has("layout")) file.at("slant_deg").fail("needs 'layout: 4sp'");
-  vehicle.correlation = read_correlations(file, vehicle);
+  read_correlations(file, vehicle);
   expect_rotor_exists(file, vehicle);
   if (use == VehicleUse::computing) expect_computable(file, vehicle);
   return vehicle;

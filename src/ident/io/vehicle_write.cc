@@ -101,8 +101,8 @@ void write_vehicle(const std::string& path, const Vehicle& vehicle) {
 
 Vehicle with_parameters(Vehicle vehicle, const Vehicle& found) {
   for (const auto& [name, known] : found.parameters) vehicle.parameters[name] = known;
-  const auto kept = [&](const std::string& name) { return !found.parameters.contains(name); };
-  vehicle.correlation = vehicle.correlation.part(kept).beside(found.correlation);
+  const auto is_found = [&](const std::string& name) { return found.parameters.contains(name); };
+  vehicle.correlation = vehicle.correlation.renewed(found.correlation, is_found);
   if (found.rotors.empty()) {
     for (Rotor& rotor : vehicle.rotors) rotor.a_B = axis_at(rotor, slant_angle(vehicle));
     return vehicle;
@@ -122,9 +122,8 @@ Vehicle with_result(Vehicle before, const Result& result) {
     before.parameters[p.name] = {p.value, p.std};
     stored.insert(p.name);
   }
-  const auto is_stored = [&](const std::string& name) { return stored.contains(name); };
-  before.correlation = before.correlation.part([&](const std::string& name) { return !is_stored(name); })
-                           .beside(result.correlation.part(is_stored));
+  before.correlation = before.correlation.renewed(
+      result.correlation, [&](const std::string& name) { return stored.contains(name); });
   return before;
 }
 

@@ -67,6 +67,27 @@ Parameter stated(const Vehicle& vehicle, const std::string& name) {
           .source = "prior"};
 }
 
+/// Adds what one more result found of a parameter. What the parameter file holds counts, whichever result
+/// stored it; else the later one that determines it. Of one that flights know together with others only, what
+/// the bench determines stays determined.
+void add_found(const Parameter& found, const Vehicle& vehicle, std::vector<Parameter>& all) {
+  const auto at = std::ranges::find(all, found.name, &Parameter::name);
+  if (at == all.end()) {
+    all.push_back(found);
+    return;
+  }
+  const auto is_stored = [&](const Parameter& p) {
+    return vehicle.has(p.name) && vehicle.value(p.name) == p.value;
+  };
+  if (is_stored(*at) && !is_stored(found)) return;
+  if (!is_stored(found) && !found.identifiable && at->identifiable) return;
+  const Parameter before = *at;
+  *at = found;
+  if (found.identifiable || !before.identifiable) return;
+  at->identifiable = true, at->note.clear();
+  at->source = before.source + ", " + found.source;
+}
+
 std::string counted(std::size_t count, const std::string& thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
@@ -117,16 +138,7 @@ Result campaign_summary(const Vehicle& vehicle, const std::vector<Result>& resul
     for (const Warning& warning : result.warnings)
       summary.warn(warning.code, "ident " + result.command + ": " + warning.message);
     if (is_diagnosis(result)) continue;  // it keeps nothing in the parameter file
-    for (const Parameter& found : result.parameters) {
-      const auto at = std::ranges::find(summary.parameters, found.name, &Parameter::name);
-      if (at == summary.parameters.end())
-        summary.parameters.push_back(found);
-      else if (found.identifiable || !at->identifiable)
-        *at = found;
-      else if (found.joint)
-        at->value = found.value, at->std = found.std, at->ci95 = found.ci95,
-        at->source += ", " + found.source;
-    }
+    for (const Parameter& found : result.parameters) add_found(found, vehicle, summary.parameters);
   }
   const auto unknown = std::ranges::count(summary.parameters, false, &Parameter::identifiable);
   const std::size_t found = summary.parameters.size();

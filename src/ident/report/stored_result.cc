@@ -2,6 +2,7 @@
 #include "ident/report/stored_result.h"
 
 #include <concepts>
+#include <set>
 #include <type_traits>
 
 #include "ident/core/version.h"
@@ -11,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "ident.stored/2";
+constexpr const char* kSchema = "ident.stored/1";
 
 // The fields of each type. `T` is const when writing.
 
@@ -60,17 +61,14 @@ void visit_fields(T& f, Visit visit) {
   visit("path", f.path), visit("sha256", f.sha256);
 }
 
-template <Is<Correlation> T, typename Visit>
-void visit_fields(T& c, Visit visit) {
-  visit("names", c.names), visit("matrix", c.matrix);
-}
-
 template <Is<Result> T, typename Visit>
 void visit_fields(T& r, Visit visit) {
   visit("result_schema", r.schema), visit("command", r.command), visit("inputs", r.inputs);
   visit("parameters", r.parameters), visit("fit", r.fit), visit("warnings", r.warnings);
   visit("extra", r.extra), visit("verdict", r.verdict), visit("sections", r.sections);
-  visit("correlation", r.correlation), visit("prior_correlation", r.prior_correlation);
+  visit("correlation_names", r.correlation.names), visit("correlation", r.correlation.matrix);
+  visit("prior_correlation_names", r.prior_correlation.names);
+  visit("prior_correlation", r.prior_correlation.matrix);
   visit("files", r.files), visit("command_line", r.command_line), visit("seed", r.seed);
   visit("version", r.version);
 }
@@ -163,7 +161,11 @@ Json write(const T& x) {
 }
 template <Structure T>
 void read(const Json& j, T& x) {
-  visit_fields(x, [&](const char* name, auto& field) { read(j.at(name), field); });
+  // What older versions did not write yet keeps its default.
+  static const std::set<std::string> newer = {"joint", "prior_correlation_names", "prior_correlation"};
+  visit_fields(x, [&](const char* name, auto& field) {
+    if (j.contains(name) || !newer.contains(name)) read(j.at(name), field);
+  });
 }
 
 }  // namespace
