@@ -40,10 +40,10 @@ BenchInput bench_input(const BenchOptions& options, const TableSchema& schema, c
   return input;
 }
 
-void store_in_campaign(const BenchInput& input, const Result& result, Context& context) {
+void store_in_campaign(const BenchInput& input, Result& result, Context& context) {
   if (!input.campaign) return;
-  if (std::string replaced = replaced_by_bench(*input.campaign, result); !replaced.empty())
-    context.notices.push_back(std::move(replaced));
+  if (std::optional<Warning> replaced = replaces_refined(*input.campaign, result))
+    result.warnings.push_back(std::move(*replaced));
   context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
 }
 

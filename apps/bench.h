@@ -33,6 +33,6 @@ BenchInput bench_input(const BenchOptions& options, const TableSchema& schema, c
                        std::vector<std::string> Campaign::*listed, Context& context);
 
 /// Stores the estimates in the campaign's parameter file when the files came from the campaign.
-void store_in_campaign(const BenchInput& input, const Result& result, Context& context);
+void store_in_campaign(const BenchInput& input, Result& result, Context& context);
 
 }  // namespace ident::app

@@ -93,13 +93,18 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
   }
   if (!options.vehicle.empty()) {
     input.vehicle = read_vehicle(options.vehicle);
+    input.campaign.reset();  // another vehicle is none of its business
     context.used.push_back(options.vehicle);
   } else if (campaign) {
-    CampaignPriors priors = model == Model::as_stored ? as_stored(*campaign) : before_logs(*campaign, logs);
-    input.vehicle = std::move(priors.vehicle);
-    input.warnings = std::move(priors.warnings);
-    input.priors = priors.as_json();
-    context.notices.insert(context.notices.end(), priors.notices.begin(), priors.notices.end());
+    if (model == Model::as_stored) {
+      input.vehicle = campaign_vehicle(*campaign);
+    } else {
+      CampaignPriors priors = before_logs(*campaign, logs);
+      input.vehicle = std::move(priors.vehicle);
+      input.warnings = std::move(priors.warnings);
+      input.history = std::move(priors.history);
+      context.notices.insert(context.notices.end(), priors.notices.begin(), priors.notices.end());
+    }
     context.used.insert(context.used.end(), {campaign->file, campaign->vehicle, campaign->parameters});
     context.shown = Shown::pictures;  // the result is kept for the report of the campaign
   } else {

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "ident/data/flight_log.h"
 #include "ident/io/campaign.h"
+#include "ident/io/flight_history.h"
 
 namespace ident::app {
 
@@ -25,9 +26,9 @@ enum class Model { as_stored, before_these_logs };
 struct FlightInput {
   Vehicle vehicle;
   std::vector<FlightLog> logs;
-  std::optional<Campaign> campaign;  ///< set when the logs came from it: results are stored there
-  nlohmann::ordered_json priors;     ///< where what is known comes from, for the stored result
-  std::vector<Warning> warnings;     ///< of that
+  std::optional<Campaign> campaign;  ///< set when logs and vehicle came from it: results are stored there
+  FlightHistory history;             ///< what is stored with them, but for what the refinement finds
+  std::vector<Warning> warnings;     ///< of what was known before
 };
 
 /// Reads them; without a file the campaign's logs, without --vehicle its vehicle. Throws UsageError when

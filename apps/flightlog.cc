@@ -3,6 +3,7 @@
 #include "ident/estimators/flight_jitter.h"
 #include "ident/estimators/flight_refine.h"
 #include "ident/estimators/simulation_residuals.h"
+#include "ident/io/vehicle_file.h"
 
 namespace ident::app {
 namespace {
@@ -27,6 +28,7 @@ Result verified(const Vehicle& vehicle, const FlightInput& input, double horizon
 void verify_too(Result& refined, const FlightInput& input, double horizon) {
   Vehicle vehicle = input.vehicle;
   for (const Parameter& p : refined.parameters) vehicle.parameters[p.name] = {.value = p.value, .std = p.std};
+  vehicle.correlation = refined.correlation;
   std::vector<Section> shown = verified(vehicle, input, horizon).sections;
   std::move(shown.end() - 2, shown.end(), std::back_inserter(refined.sections));
 }
@@ -43,12 +45,14 @@ Outcome run(const Options& options, Context& context) {
   refine.progress = [&](double share) { progress.update(share); };
   Result result = refine_flight(input.vehicle, input.logs, refine);
   result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
-  if (input.campaign) result.extra["priors"] = input.priors;
   const bool simulated = !result.has_warning("no_turning");
   if (result.has_warning("speeds_jitter")) input.logs = without_commands(input.logs);
   if (refine.shown != Shown::numbers && simulated) verify_too(result, input, options.horizon);
-  if (input.campaign)
-    context.outputs.add(input.campaign->parameters, updated_parameters(*input.campaign, result));
+  if (input.campaign) {
+    input.history.after = with_result(input.history.before, result);
+    context.outputs.add(input.campaign->parameters, vehicle_to_yaml(input.history.after));
+    context.outputs.add(flight_history_path(), flight_history_text(input.history));
+  }
   return result;
 }
 

@@ -8,7 +8,7 @@ namespace {
 Outcome run(const BenchOptions& options, Context& context) {
   const BenchInput input = bench_input(options, motor_schema(), "motor", &Campaign::motor, context);
   const Progress progress("fitting the motor");
-  const Result result =
+  Result result =
       estimate_motor(input.tables, {.command = input.vehicle ? input.vehicle->command : std::nullopt});
   store_in_campaign(input, result, context);
   return result;

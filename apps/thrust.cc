@@ -15,7 +15,7 @@ Outcome run(const Options& options, Context& context) {
   ThrustOptions chosen = input.vehicle ? thrust_options(*input.vehicle) : ThrustOptions{};
   if (options.radius > 0.0) chosen.radius = options.radius;
   if (options.rho > 0.0) chosen.rho = options.rho;
-  const Result result = estimate_thrust(input.tables, chosen);
+  Result result = estimate_thrust(input.tables, chosen);
   store_in_campaign(input, result, context);
   return result;
 }

@@ -1,6 +1,10 @@
 // What one command of a campaign leaves for the next: each thing that was measured counts once.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
 #include "ident/io/vehicle_file.h"
 #include "support/run_program.h"
 
@@ -41,6 +45,10 @@ class CampaignPriors : public ::testing::Test {
             "  Jyy: {value: 3.1e-3, std: 3.0e-4}\n  Jzz: {value: 5.5e-3, std: 5.0e-4}\n"
             "  dead_time: {value: 0.004, std: 0.001}\n");
   }
+  std::string read(const std::string& file) {
+    std::ifstream in(folder_ + "/" + file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
   Known stored(const std::string& name) {
     return read_vehicle(folder_ + "/parameters.yaml").parameters.at(name);
   }
@@ -70,13 +78,57 @@ TEST_F(CampaignPriors, ALogCountsOnce) {
 
 TEST_F(CampaignPriors, ABenchThatReplacesARefinementSaysSo) {
   write_text(folder_, "ident.yaml", "vehicle: quad.yaml\nthrust: sweep.csv\nlogs: flight1.csv\n");
-  EXPECT_FALSE(says(run({"thrust"}), "run `ident flightlog --refine` again"));
+  EXPECT_FALSE(says(run({"thrust"}), "refine_again"));
   const double bench = stored("kT").value;
   refine("flight1.csv");
   EXPECT_NE(stored("kT").value, bench);
   const std::string again = run({"thrust"});
-  EXPECT_TRUE(says(again, "run `ident flightlog --refine` again") && says(again, "kT, kQ")) << again;
+  EXPECT_TRUE(says(again, "warning refine_again")) << again;
   EXPECT_EQ(stored("kT").value, bench);
+  EXPECT_TRUE(says(run({"report"}) + read("report.md"), "refine_again"));
+}
+
+// Whatever else is run in between, the same logs give the same constants.
+TEST_F(CampaignPriors, TheSameLogsTellTheSame) {
+  refine("flight1.csv");
+  const std::string once = read("parameters.yaml");
+  run({"flightlog", "--refine", "--free", "Omega_0"});
+  EXPECT_TRUE(says(read("parameters.yaml"), "Omega_0"));
+  run({"flightlog", "--refine"});
+  EXPECT_EQ(read("parameters.yaml"), once) << "a constant that was freed once is gone";
+  run({"flightlog", "flight2.csv", "--refine"});
+  run({"flightlog", "--refine", "--vehicle", "quad.yaml"});
+  EXPECT_EQ(read("parameters.yaml"), once) << "of another log, of another vehicle";
+  refine("./flight1.csv");
+  EXPECT_EQ(read("parameters.yaml"), once) << "the same file by another name";
+}
+
+TEST_F(CampaignPriors, AMassThatIsExactNowIsTaken) {
+  refine("flight1.csv");
+  const std::string text = read("quad.yaml");
+  std::string exact = text;
+  exact.replace(text.find("{value: 0.5, std: 0.001}"), 24, "0.52");
+  write_text(folder_, "quad.yaml", exact);
+  refine("flight1.csv");
+  EXPECT_FALSE(read_vehicle(folder_ + "/parameters.yaml").has("m"));
+  EXPECT_NEAR(stored("kT").value / 6.1e-6, 1.04, 0.01);
+}
+
+// A line that somebody takes out stays out, and what was changed by hand stays.
+TEST_F(CampaignPriors, AParameterFileMayBeEdited) {
+  write_text(folder_, "ident.yaml", "vehicle: quad.yaml\nthrust: sweep.csv\nlogs: flight1.csv\n");
+  run({"thrust"});
+  refine("flight1.csv");
+  Vehicle edited = read_vehicle(folder_ + "/parameters.yaml");
+  edited.parameters.erase("kQ");
+  edited.parameters["Jp"] = {2e-5, 1e-6};
+  write_vehicle(folder_ + "/parameters.yaml", edited);
+  const auto& prior = [&](const std::string& name) {
+    return nlohmann::json::parse(
+        run_ident({"flightlog", "--refine", "--json"}, folder_).out)["parameters"][name]["prior"];
+  };
+  EXPECT_NEAR(prior("Jp")["value"].get<double>(), 2e-5, 1e-12);
+  EXPECT_NEAR(prior("kQ")["value"].get<double>(), 8.5e-8, 1e-15) << "as the vehicle file states it";
 }
 
 }  // namespace

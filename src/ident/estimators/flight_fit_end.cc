@@ -31,6 +31,13 @@ bool rounding_shows(const FlightSmoother& smoother, const MatrixXd& covariance) 
   return n > 0 && !(held.cwiseProduct(covariance.diagonal().head(n)).maxCoeff() < kSingleServes);
 }
 
+// A symmetric matrix with its eigenvalues between these.
+MatrixXd clamped(const MatrixXd& A, double least, double most) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).cwiseMin(most).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 // Sandwich over blocks of time: what the scores scatter by, in place of what white residuals would make them
 // scatter by. As a matrix, so that what is known together stays so: with deviations alone stretched each by
 // its own, thrust and inertia would no longer go together as they do.
@@ -50,8 +57,11 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
     meat.noalias() += (block.score - mean) * (block.score - mean).transpose();
   meat *= n / (n - 1);
   const VectorXd std = S.diagonal().cwiseSqrt();
-  const MatrixXd correlation = std.cwiseInverse().asDiagonal() * S * std.cwiseInverse().asDiagonal();
-  const MatrixXd L = std.asDiagonal() * MatrixXd(Eigen::LLT<MatrixXd>(correlation).matrixL());
+  MatrixXd correlation = std.cwiseInverse().asDiagonal() * S * std.cwiseInverse().asDiagonal();
+  correlation.diagonal().array() += 1e-12;  // rounding
+  const Eigen::LLT<MatrixXd> factor(correlation);
+  if (factor.info() != Eigen::Success) return S;
+  const MatrixXd L = std.asDiagonal() * MatrixXd(factor.matrixL());
   const Eigen::SelfAdjointEigenSolver<MatrixXd> shares(L.transpose() * fit.information * L);
   std::vector<Eigen::Index> told;
   for (Eigen::Index i = 0; i < S.rows(); ++i)
@@ -66,13 +76,13 @@ MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
   const MatrixXd all_alike = usual * MatrixXd::Identity(p, p);
   const double differ = (K - all_alike).squaredNorm() / static_cast<double>(p),
                by_chance = usual * usual * static_cast<double>(p + 1) / n;
-  const double drawn = 0.5 * std::min(by_chance / differ, 1.0);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> more((1 - drawn) * K + drawn * all_alike);
-  K = more.eigenvectors() * (more.eigenvalues().array() - 1).max(0.0).matrix().asDiagonal() *
-      more.eigenvectors().transpose();
-  const MatrixXd V = S + D * root.asDiagonal() * K * root.asDiagonal() * D.transpose();
-  const VectorXd most = inverse_of(prior).diagonal().cwiseQuotient(V.diagonal()).cwiseMin(1.0).cwiseSqrt();
-  return most.asDiagonal() * V * most.asDiagonal();
+  const double drawn = differ > by_chance ? 0.5 * by_chance / differ : 0.5;
+  K = clamped((1 - drawn) * K + drawn * all_alike - MatrixXd::Identity(p, p), 0.0, 1e300);
+  // The prior's variance is 1/(1 - s) there, and what is added to 1 at most the rest.
+  const VectorXd c = (1 - root.array().square()).max(1e-12).sqrt(), back = root.cwiseQuotient(c);
+  const MatrixXd added =
+      back.asDiagonal() * clamped(c.asDiagonal() * K * c.asDiagonal(), 0.0, 1.0) * back.asDiagonal();
+  return S + D * added * D.transpose();
 }
 
 }  // namespace

@@ -54,6 +54,11 @@ Theta::Theta(std::vector<double> p, std::vector<FreeConstant> constants, int log
       gyro_(gyro),
       gyro_bias_std_(gyro_bias_std) {
   for (const FreeConstant& c : constants_) p_[static_cast<std::size_t>(c.index)] = c.start;
+  for (FreeConstant& c : constants_)
+    std::erase_if(c.known_with, [&](const auto& other) {
+      return std::ranges::none_of(
+          constants_, [&](const FreeConstant& d) { return d.index == other.first && d.prior_std; });
+    });
   prior_precision_ = precision_of(constants_, size());
   for (const FreeConstant& c : constants_)
     prior_in_logarithms_.push_back(c.positive && c.times < 0 && c.prior_value > 0 &&

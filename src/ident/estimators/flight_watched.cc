@@ -31,7 +31,7 @@ const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
 double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
   // How far it moves when it is free, over the factor by which coloured residuals spread the scores it
   // leaves.
-  PriorTerms prior = theta.prior(fit.u);
+  PriorTerms prior = theta.prior(fit.u).loosened(at, 1.0);
   prior.slope[at] = 0;
   const Eigen::Index n = fit.u.size();
   MatrixXd F = MatrixXd::Zero(n, n), H = prior.information();

@@ -96,9 +96,12 @@ Campaign read_campaign(const std::string& folder) {
 }
 
 Vehicle campaign_vehicle(const Campaign& campaign) {
+  return campaign_vehicle(campaign,
+                          fs::exists(campaign.parameters) ? read_vehicle(campaign.parameters) : Vehicle());
+}
+
+Vehicle campaign_vehicle(const Campaign& campaign, const Vehicle& found) {
   Vehicle vehicle = read_vehicle(campaign.vehicle);
-  if (!fs::exists(campaign.parameters)) return vehicle;
-  const Vehicle found = read_vehicle(campaign.parameters);
   const std::vector<Warning> warnings = stated_otherwise(vehicle, found);
   vehicle.warnings.insert(vehicle.warnings.end(), warnings.begin(), warnings.end());
   return with_parameters(std::move(vehicle), found);

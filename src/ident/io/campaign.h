@@ -41,8 +41,9 @@ Campaign read_campaign(const std::string& folder = ".");
 /// The same, or nothing where the folder has no `ident.yaml`.
 std::optional<Campaign> find_campaign(const std::string& folder = ".");
 
-/// The vehicle file with the stored estimates laid over it.
+/// The vehicle file with the stored estimates laid over it, or with those `found`.
 Vehicle campaign_vehicle(const Campaign& campaign);
+Vehicle campaign_vehicle(const Campaign& campaign, const Vehicle& found);
 
 /// New content of the parameter file: what it held, and what the result determines. For Context::outputs.
 std::string updated_parameters(const Campaign& campaign, const Result& result);

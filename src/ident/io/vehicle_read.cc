@@ -9,8 +9,7 @@
 #include "ident/io/parameter_names.h"
 #include "ident/io/parse_number.h"
 #include "ident/io/vehicle_correlations.h"
-#include "ident/io/vehicle_file.h"
-#include "ident/io/yaml_value.h"
+#include "ident/io/vehicle_yaml.h"
 #include "ident/model/parameters.h"
 
 namespace ident {
@@ -199,11 +198,12 @@ void expect_computable(const YamlValue& file, const Vehicle& vehicle) {
 
 }  // namespace
 
-Vehicle read_vehicle(const std::string& path, VehicleUse use) {
-  const YamlValue file = load_yaml(path);
+Vehicle read_vehicle(const std::string& path, VehicleUse use) { return vehicle_from(load_yaml(path), use); }
+
+Vehicle vehicle_from(const YamlValue& file, VehicleUse use) {
   file.expect_map(kVehicleKeys);
   Vehicle vehicle;
-  vehicle.file = path;
+  vehicle.file = file.file();
   if (file.has("name")) vehicle.name = file.at("name").text();
   if (file.has("signs")) vehicle.signs = read_signs(file.at("signs"));
   read_parameters(file, vehicle);

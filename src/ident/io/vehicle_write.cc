@@ -103,6 +103,7 @@ Vehicle with_parameters(Vehicle vehicle, const Vehicle& found) {
   for (const auto& [name, known] : found.parameters) vehicle.parameters[name] = known;
   const auto is_found = [&](const std::string& name) { return found.parameters.contains(name); };
   vehicle.correlation = vehicle.correlation.renewed(found.correlation, is_found);
+  vehicle.warnings.insert(vehicle.warnings.end(), found.warnings.begin(), found.warnings.end());
   if (found.rotors.empty()) {
     for (Rotor& rotor : vehicle.rotors) rotor.a_B = axis_at(rotor, slant_angle(vehicle));
     return vehicle;

@@ -1,0 +1,12 @@
+// A vehicle as a part of another YAML file. Only the files of this folder include it.
+#pragma once
+
+#include "ident/io/vehicle_file.h"
+#include "ident/io/yaml_value.h"
+
+namespace ident {
+
+/// Same as `read_vehicle`, from a mapping.
+Vehicle vehicle_from(const YamlValue& mapping, VehicleUse use = VehicleUse::computing);
+
+}  // namespace ident
