@@ -1,11 +1,10 @@
 // The end of a fit: its minimum, its covariance, and what parts of the flight say by themselves.
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
+#include "ident/estimators/flight_colour.h"
 #include "ident/estimators/flight_fit.h"
 #include "ident/estimators/flight_fit_steps.h"
 
@@ -21,7 +20,6 @@ constexpr double kSure = 0.5;
 // flight would say of a constant, were all states known, over what it does say. At the root of this limit no
 // error was above a hundredth in any direction.
 constexpr double kSingleServes = 1e6;
-constexpr double kTold = 0.05;  // share of the information about a direction that the flight tells
 
 // Whether the rounding of slopes in single precision could pass for information: where there is next to no
 // noise, so that little of what the rows say of a constant is left once states are free.
@@ -29,60 +27,6 @@ bool rounding_shows(const FlightSmoother& smoother, const MatrixXd& covariance) 
   const VectorXd held = smoother.information_of_held_states();
   const auto n = held.size();
   return n > 0 && !(held.cwiseProduct(covariance.diagonal().head(n)).maxCoeff() < kSingleServes);
-}
-
-// A symmetric matrix with its eigenvalues between these.
-MatrixXd clamped(const MatrixXd& A, double least, double most) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).cwiseMin(most).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
-
-// Sandwich over blocks of time: what the scores scatter by, in place of what white residuals would make them
-// scatter by. As a matrix, so that what is known together stays so: with deviations alone stretched each by
-// its own, thrust and inertia would no longer go together as they do.
-//
-// In the directions that the flight tells (its share of the information is s, the prior's 1 - s) the scatter
-// over that of white residuals is K. A few dozen blocks tell K badly: it is drawn towards its mean by half of
-// what chance explains that it differs by [after Ledoit & Wolf 2004], too wide costing less than too narrow,
-// and is at least 1. Nothing is known worse with the flight than without it.
-MatrixXd corrected_for_colour(const FlightFit& fit, const MatrixXd& prior) {
-  const MatrixXd& S = fit.naive_covariance;
-  const double n = static_cast<double>(fit.blocks.size());
-  if (n < 8) return S;
-  VectorXd mean = VectorXd::Zero(prior.rows());
-  for (const ScoreBlock& block : fit.blocks) mean += block.score / n;
-  MatrixXd meat = MatrixXd::Zero(prior.rows(), prior.rows());
-  for (const ScoreBlock& block : fit.blocks)
-    meat.noalias() += (block.score - mean) * (block.score - mean).transpose();
-  meat *= n / (n - 1);
-  const VectorXd std = S.diagonal().cwiseSqrt();
-  MatrixXd correlation = std.cwiseInverse().asDiagonal() * S * std.cwiseInverse().asDiagonal();
-  correlation.diagonal().array() += 1e-12;  // rounding
-  const Eigen::LLT<MatrixXd> factor(correlation);
-  if (factor.info() != Eigen::Success) return S;
-  const MatrixXd L = std.asDiagonal() * MatrixXd(factor.matrixL());
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> shares(L.transpose() * fit.information * L);
-  std::vector<Eigen::Index> told;
-  for (Eigen::Index i = 0; i < S.rows(); ++i)
-    if (shares.eigenvalues()[i] > kTold) told.push_back(i);
-  const auto p = static_cast<Eigen::Index>(told.size());
-  if (p == 0) return S;
-  const MatrixXd D = L * shares.eigenvectors()(Eigen::all, told);
-  const VectorXd root = shares.eigenvalues()(told).cwiseMin(1.0).cwiseSqrt();
-  MatrixXd K =
-      root.cwiseInverse().asDiagonal() * (D.transpose() * meat * D) * root.cwiseInverse().asDiagonal();
-  const double usual = K.trace() / static_cast<double>(p);
-  const MatrixXd all_alike = usual * MatrixXd::Identity(p, p);
-  const double differ = (K - all_alike).squaredNorm() / static_cast<double>(p),
-               by_chance = usual * usual * static_cast<double>(p + 1) / n;
-  const double drawn = differ > by_chance ? 0.5 * by_chance / differ : 0.5;
-  K = clamped((1 - drawn) * K + drawn * all_alike - MatrixXd::Identity(p, p), 0.0, 1e300);
-  // The prior's variance is 1/(1 - s) there, and what is added to 1 at most the rest.
-  const VectorXd c = (1 - root.array().square()).max(1e-12).sqrt(), back = root.cwiseQuotient(c);
-  const MatrixXd added =
-      back.asDiagonal() * clamped(c.asDiagonal() * K * c.asDiagonal(), 0.0, 1.0) * back.asDiagonal();
-  return S + D * added * D.transpose();
 }
 
 }  // namespace
@@ -131,7 +75,7 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
     fit.u += last.du, fit.cost -= last.fall;
     for (ScoreBlock& block : fit.blocks) block.score += block.information * last.du;
   }
-  fit.covariance = corrected_for_colour(fit, prior);
+  fit.covariance = corrected_for_colour(fit.naive_covariance, fit.information, fit.blocks);
   smoother.set_exact(false);
 }
 

@@ -139,7 +139,8 @@ double FlightSmoother::retune(int rounds, bool eliminated) {
     if (round > 0) eliminate(again ? nullptr : &du);
     if (again) du = shared_optimum();
     Elimination& el = last();
-    const auto& [P, cross, of] = covariances_by(last_at_);
+    const Covariances& covariances = covariances_by(last_at_);
+    const auto &P = covariances.P, &cross = covariances.cross;
     const std::vector<VectorXd> dx = state_steps(el, du);
     struct LogMoments {
       std::array<ProcessMoments, 3> turn, push;
