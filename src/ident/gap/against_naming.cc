@@ -239,7 +239,7 @@ std::string against_naming(const SearchResult& search, const GapClosed& gap, con
   if (std::isfinite(gap.closed) && gap.closed < kMostlyClosed && gap.after > kFloorKnown * gap.floor &&
       !(gap.closed > kHardlyClosed && gap.ci95[1] > kPerhapsClosed))
     return "most of the gap remains with it";
-  if (const std::string why = impossible_size(search, fitted); !why.empty()) return why;
+  if (std::string why = impossible_size(search, fitted); !why.empty()) return why;
   if (is_predicted(search, rival))
     return "a plain regression on the flight predicts what it leaves, most in " + rival.strongest();
   const auto found = [&](const std::string& wrong) {
