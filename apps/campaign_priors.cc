@@ -33,14 +33,16 @@ std::vector<InputFile> identified(const std::vector<CampaignLog>& logs) {
   return files;
 }
 
-// Whether the parameter file holds what a refinement by a version without a history found.
-bool refined_without_history(const Vehicle& found) {
+// Logs of a refinement whose values the parameter file holds, by a version that kept no history.
+std::vector<InputFile> refined_without_history(const Vehicle& found) {
   const auto is_in_file = [&](const Parameter& p) {
     return found.has(p.name) && found.value(p.name) == p.value;
   };
-  return std::ranges::any_of(stored_results("."), [&](const Result& r) {
-    return r.command == "flightlog" && std::ranges::any_of(r.parameters, is_in_file);
-  });
+  std::vector<CampaignLog> logs;
+  for (const Result& r : stored_results("."))
+    if (r.command == "flightlog" && std::ranges::any_of(r.parameters, is_in_file))
+      for (const std::string& log : r.inputs) logs.push_back({log, {}});
+  return identified(logs);
 }
 
 }  // namespace
@@ -62,12 +64,8 @@ CampaignPriors before_logs(const Campaign& campaign, const std::vector<CampaignL
     } else {
       history.earlier.insert(history.earlier.end(), last->logs.begin(), last->logs.end());
     }
-  } else if (refined_without_history(history.before)) {
-    out.warnings.push_back(
-        {"counted_twice",
-         fmt::format("{} holds what an older version of ident refined, and what was known before "
-                     "that is not stored: a log that it used counts twice. Begin anew without {}.",
-                     campaign.parameters, campaign.parameters)});
+  } else {
+    history.earlier = refined_without_history(history.before);
   }
   for (const InputFile& log : history.logs)
     if (used_by(history.earlier)(log))
