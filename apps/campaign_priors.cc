@@ -55,7 +55,10 @@ CampaignPriors before_logs(const Campaign& campaign, const std::vector<CampaignL
   const auto used_by = [](const std::vector<InputFile>& files) {
     return [&](const InputFile& log) { return holds(files, log); };
   };
-  if (const std::optional<FlightHistory> last = read_flight_history()) {
+  const std::optional<FlightHistory> last = read_flight_history();
+  if (!last) {
+    history.earlier = refined_without_history(history.before);
+  } else if (last->is_in(history.before)) {  // else the parameter file was begun anew
     history.earlier = last->earlier;
     if (std::ranges::any_of(history.logs, used_by(last->logs))) {
       history.before = last->undone(history.before);
@@ -64,8 +67,6 @@ CampaignPriors before_logs(const Campaign& campaign, const std::vector<CampaignL
     } else {
       history.earlier.insert(history.earlier.end(), last->logs.begin(), last->logs.end());
     }
-  } else {
-    history.earlier = refined_without_history(history.before);
   }
   for (const InputFile& log : history.logs)
     if (used_by(history.earlier)(log))

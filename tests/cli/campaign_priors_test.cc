@@ -1,6 +1,7 @@
 // What one command of a campaign leaves for the next: each thing that was measured counts once.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -74,6 +75,8 @@ TEST_F(CampaignPriors, ALogCountsOnce) {
   EXPECT_LT(*stored("omega_m").std, 0.85 * first);
   EXPECT_FALSE(says(refine("flight2.csv"), "counted_twice")) << "again, from what was known before";
   EXPECT_TRUE(says(refine("flight1.csv"), "counted_twice"));
+  std::filesystem::remove(folder_ + "/parameters.yaml");  // as that advises
+  EXPECT_FALSE(says(refine("[flight1.csv, flight2.csv]"), "counted_twice"));
 }
 
 TEST_F(CampaignPriors, ABenchThatReplacesARefinementSaysSo) {

@@ -11,8 +11,8 @@
 
 namespace ident {
 
-/// The estimates of a fit as parameters of a result, in the
-/// order of the constants; watched ones, which come last, are left out.
+/// The estimates of a fit as parameters of a result, in the order of the constants; watched ones, which come
+/// last, are left out.
 std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fit, const std::string& source);
 
 /// Correlation of those estimates, from the covariance of the unknowns. What moves as a product with another

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -23,12 +24,6 @@ std::string indented(const std::string& text) {
   return out;
 }
 
-std::string quoted(const std::string& path) {
-  std::string out = "'";
-  for (const char c : path) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string listed(const char* key, const std::vector<InputFile>& files) {
   std::string out = files.empty() ? fmt::format("{}: []\n", key) : fmt::format("{}:\n", key);
   for (const InputFile& file : files)
@@ -44,6 +39,14 @@ std::vector<InputFile> files_of(const YamlValue& list) {
 }
 
 }  // namespace
+
+bool FlightHistory::is_in(const Vehicle& now) const {
+  return std::ranges::any_of(after.parameters, [&](const auto& found) {
+    const auto& [name, known] = found;
+    const bool was_before = before.has(name) && same(before.parameters.at(name), known);
+    return !was_before && now.has(name) && same(now.parameters.at(name), known);
+  });
+}
 
 Vehicle FlightHistory::undone(const Vehicle& now) const {
   std::set<std::string> changed;

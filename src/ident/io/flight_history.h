@@ -15,6 +15,8 @@ struct FlightHistory {
   std::vector<InputFile> logs;     ///< that were refined
   std::vector<InputFile> earlier;  ///< that `before` rests on already
 
+  /// Whether the parameter file `now` still holds something that the refinement found.
+  bool is_in(const Vehicle& now) const;
   /// The parameter file `now` without what the refinement made of it: what was changed since is kept, and
   /// what was taken out stays out.
   Vehicle undone(const Vehicle& now) const;

@@ -8,7 +8,7 @@
 #include "ident/effects/catalogue.h"
 #include "ident/io/parameter_names.h"
 #include "ident/io/vehicle_correlations.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/vehicle_yaml.h"
 #include "ident/io/write_file.h"
 
 namespace ident {
@@ -19,19 +19,6 @@ std::string number(double value) { return fmt::format("{}", value); }
 std::string known_text(const Known& known) {
   if (!known.std) return number(known.value);
   return fmt::format("{{value: {}, std: {}}}", known.value, *known.std);
-}
-
-/// A word as a double-quoted YAML scalar.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n')
-      out += "\\n";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      out += c;
-  }
-  return out + "\"";
 }
 
 std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
@@ -75,6 +62,18 @@ std::string parameter_lines(std::map<std::string, Known> parameters, bool axes_w
 }
 
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n')
+      out += "\\n";
+    else if (static_cast<unsigned char>(c) >= 0x20)
+      out += c;
+  }
+  return out + "\"";
+}
 
 std::string vehicle_to_yaml(const Vehicle& vehicle) {
   std::string out;

@@ -9,4 +9,7 @@ namespace ident {
 /// Same as `read_vehicle`, from a mapping.
 Vehicle vehicle_from(const YamlValue& mapping, VehicleUse use = VehicleUse::computing);
 
+/// A word as a double-quoted YAML scalar.
+std::string quoted(const std::string& text);
+
 }  // namespace ident
