@@ -34,10 +34,89 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kProfiles = 3;  // of weak constants; more take longer than the fit
 
+// What a filter made late passes for lag of the motors where nothing else tells.
+bool filter_lag_is_open(const Result& result, const Signals& logged) {
+  return !logged.attitude && logged.commands && result.has_warning("filtered_noise");
+}
+
 nlohmann::ordered_json process_json(const std::array<ColouredNoise, 3>& noise) {
   nlohmann::ordered_json std = nlohmann::ordered_json::array(), time = std;
   for (const ColouredNoise& axis : noise) std.push_back(axis.sigma), time.push_back(axis.tau);
   return {{"std", std}, {"correlation_time", time}};
+}
+
+// The `fit` of a result: how it was fitted, and the noise that was found.
+nlohmann::ordered_json as_json(const FlightRecord& record, const FlightFit& fit) {
+  nlohmann::ordered_json j{
+      {"seconds", record.duration}, {"steps", fit.steps}, {"segment_seconds", fit.chunk_seconds}};
+  j["process_noise"] = nlohmann::ordered_json::array();  // of each log
+  for (const AirNoise& air : fit.noise.air)
+    j["process_noise"].push_back(
+        {{"angular_acceleration", process_json(air.w_dot)}, {"acceleration", process_json(air.v_dot)}});
+  j["axes_of_acceleration"] = fit.noise.axes == GustAxes::world ? "world" : "body";
+  static constexpr std::array shown = {"attitude", "velocity", "position"};
+  for (std::size_t g = 0; g < shown.size(); ++g)
+    if (record.layout.shown_error[g] >= 0) j["slow_errors"][shown[g]] = process_json(fit.noise.slow[g]);
+  nlohmann::ordered_json levels;
+  for (int c = 0; c < kChannels; ++c)
+    if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
+      levels[channel_name(c)] = fit.noise.sigma[static_cast<std::size_t>(c)];
+  j["noise"] = levels;
+  return j;
+}
+
+void warn_of_correlated(Result& result) {
+  const auto& [names, correlation] = result.correlation;
+  for (Eigen::Index i = 0; i < correlation.rows(); ++i)
+    for (Eigen::Index k = 0; k < i; ++k)
+      if (std::abs(correlation(i, k)) > 0.95)
+        result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
+                                              names[static_cast<std::size_t>(k)],
+                                              names[static_cast<std::size_t>(i)], correlation(i, k)));
+}
+
+// Constants that are asked for where the logs contradict a file that is silent about them.
+std::vector<std::string> watched_constants(const Result& result, const Signals& logged) {
+  std::vector<std::string> watched = {"Omega_0", "Jp"};
+  if (!filter_lag_is_open(result, logged)) watched.emplace_back("dead_time");
+  return watched;
+}
+
+// The same logs with measured speeds as the input, for rotors that jump as no command says.
+Result refined_by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                         const RefineOptions& options, const FeltJitter& jitter) {
+  Result result = refine_flight(vehicle, without_commands(logs), options);
+  std::erase_if(result.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
+  result.warnings.push_back(
+      jitter.warning("the speeds are taken for what the rotors do, and nothing is said of the motors"));
+  return result;
+}
+
+// Whether what was fitted predicts other flight, beside the constants as stated. Frees the smoother of the
+// fit, the largest thing in memory.
+void validate(Result& result, const FlightRecord& record, const Theta& theta, FlightFit& fit, Shown shown) {
+  const FlightRecord held_out = held_out_of(record, kTrainingShare);
+  FlightFit view = fit;
+  view.u = fit_of_training(fit, record, theta, kTrainingShare);
+  view.u = nearest_body(theta, view);
+  VectorXd before = view.u;
+  // The constants as stated, with the gyro biases of the fit.
+  before.head(static_cast<Eigen::Index>(result.parameters.size())).setZero();
+  fit.smoother.reset(), view.smoother.reset();
+  Validation validation = validate_refined(held_out, theta, before, view, shown);
+  result.fit["held_out"] = validation.horizons;
+  result.sections.push_back(std::move(validation.section));
+  if (!validation.worse.empty()) result.warn("predicts_worse", validation.worse);
+}
+
+std::string verdict(const Result& result, double seconds) {
+  const auto determined =
+      std::ranges::count_if(result.parameters, [](const Parameter& p) { return p.identifiable; });
+  return fmt::format("{} of {} parameters are determined by {:.0f} s of flight{}.", determined,
+                     result.parameters.size(), seconds,
+                     result.has_warning("predicts_worse")
+                         ? ", but they predict other flight worse than those stated do"
+                         : "");
 }
 
 }  // namespace
@@ -56,11 +135,6 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
       text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
     result.warn("not_identifiable", text);
   }
-}
-
-// What a filter made late passes for lag of the motors where nothing else tells.
-bool filter_lag_is_open(const Result& result, const Signals& logged) {
-  return !logged.attitude && logged.commands && result.has_warning("filtered_noise");
 }
 
 void warn_of_filter_lag(Result& result, const Signals& logged) {
@@ -88,21 +162,14 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   const std::vector<FreeConstant> known = constants;
   std::vector<std::string> held;
   if (is_hover(tested)) held = hold_for_hover(constants);
-  std::vector<std::string> watched;
-  if (held.empty()) watched = {"Omega_0", "Jp"};
-  if (held.empty() && !filter_lag_is_open(result, record.signals)) watched.emplace_back("dead_time");
-  auto [free, fit] =
-      fit_and_watch(vehicle, p, record, constants,
-                    {.watched = watched, .also = options.free, .progress = options.progress}, result);
+  WatchOptions watch{.also = options.free, .progress = options.progress};
+  if (held.empty()) watch.watched = watched_constants(result, record.signals);
+  auto [free, fit] = fit_and_watch(vehicle, p, record, constants, watch, result);
   const Theta& theta = *free;
   if (const FeltJitter jitter = felt_jitter(record, theta, fit);
       jitter.matters() && may_do_without_commands(logs, options.free)) {
     fit.smoother.reset();
-    Result by_speeds = refine_flight(vehicle, without_commands(logs), options);
-    std::erase_if(by_speeds.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
-    by_speeds.warnings.push_back(
-        jitter.warning("the speeds are taken for what the rotors do, and nothing is said of the motors"));
-    return by_speeds;
+    return refined_by_speeds(vehicle, logs, options, jitter);
   }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);
@@ -113,6 +180,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   as_before_flight(result.parameters, known, held);
   result.prior_correlation =
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
+  result.correlation = flight_correlation(theta, fit.covariance);
+
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
   const SteadyPush push = steady_push(record, fit);
@@ -124,35 +193,12 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);
-  result.fit["seconds"] = record.duration;
-  result.fit["steps"] = fit.steps;
-  result.fit["segment_seconds"] = fit.chunk_seconds;
-  result.fit["process_noise"] = nlohmann::ordered_json::array();  // of each log
-  for (const AirNoise& air : fit.noise.air)
-    result.fit["process_noise"].push_back(
-        {{"angular_acceleration", process_json(air.w_dot)}, {"acceleration", process_json(air.v_dot)}});
-  result.fit["axes_of_acceleration"] = fit.noise.axes == GustAxes::world ? "world" : "body";
-  static constexpr std::array shown = {"attitude", "velocity", "position"};
-  for (std::size_t g = 0; g < shown.size(); ++g)
-    if (record.layout.shown_error[g] >= 0)
-      result.fit["slow_errors"][shown[g]] = process_json(fit.noise.slow[g]);
-  nlohmann::ordered_json levels;
-  for (int c = 0; c < kChannels; ++c)
-    if (record.sigma[static_cast<std::size_t>(c)] != 1.0)
-      levels[channel_name(c)] = fit.noise.sigma[static_cast<std::size_t>(c)];
-  result.fit["noise"] = levels;
+  warn_of_correlated(result);
+
+  result.fit = as_json(record, fit);
   std::vector<ThrustAt> thrust;
   if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
   if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
-  const int n = static_cast<int>(result.parameters.size());
-  result.correlation = flight_correlation(theta, fit.covariance);
-  const auto& [names, correlation] = result.correlation;
-  for (Eigen::Index i = 0; i < correlation.rows(); ++i)
-    for (Eigen::Index k = 0; k < i; ++k)
-      if (std::abs(correlation(i, k)) > 0.95)
-        result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
-                                              names[static_cast<std::size_t>(k)],
-                                              names[static_cast<std::size_t>(i)], correlation(i, k)));
   if (options.shown != Shown::numbers) {
     result.sections.push_back(data_health(record, logs, fit.noise, vibration));
     if (!thrust.empty()) result.sections.push_back(thrust_section(thrust));
@@ -162,25 +208,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (options.shown == Shown::pictures)
     std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
                       std::back_inserter(result.sections));
-  bool worse = false;
-  if (options.validate && record.duration > 6) {
-    const FlightRecord held_out = held_out_of(record, kTrainingShare);
-    FlightFit view = fit;
-    view.u = fit_of_training(fit, record, theta, kTrainingShare);
-    view.u = nearest_body(theta, view);
-    VectorXd before = view.u;
-    before.head(n).setZero();                     // the constants as stated, with the gyro biases of the fit
-    fit.smoother.reset(), view.smoother.reset();  // the largest thing in memory
-    Validation validation = validate_refined(held_out, theta, before, view, options.shown);
-    result.fit["held_out"] = validation.horizons;
-    result.sections.push_back(std::move(validation.section));
-    if (!validation.worse.empty()) result.warn("predicts_worse", validation.worse), worse = true;
-  }
-  int determined = 0;
-  for (const Parameter& q : result.parameters) determined += q.identifiable;
-  result.verdict = fmt::format("{} of {} parameters are determined by {:.0f} s of flight{}.", determined,
-                               result.parameters.size(), record.duration,
-                               worse ? ", but they predict other flight worse than those stated do" : "");
+  if (options.validate && record.duration > 6) validate(result, record, theta, fit, options.shown);
+  result.verdict = verdict(result, record.duration);
   if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;
 }
