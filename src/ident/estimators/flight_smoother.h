@@ -195,6 +195,8 @@ class FlightSmoother {
   };
 
   struct Sweep;
+  struct LinkMoments;  // of all process noise, over the links
+  struct NoisePaces;
 
   // Three components of the state that follow a Gauss-Markov process from chunk to chunk; at -1 there are
   // none.
@@ -224,9 +226,17 @@ class FlightSmoother {
   Eigen::VectorXd carried(std::size_t k) const;
   Eigen::VectorXd unseen_in(const FlightArc& arc) const;
   Eigen::VectorXd start_information(std::size_t k) const;
+  Eigen::MatrixXd start_slope(std::size_t k) const;
+  struct SpeedScale {
+    int slot;
+    double share;
+  };
+  std::optional<SpeedScale> scale_of_speeds() const;
   const AirNoise& air_of(std::size_t k) const;
   Eigen::VectorXd outside(std::size_t k) const;
   double new_error(std::size_t k, int axis, double carried) const;
+  LinkMoments link_moments(const Eigen::VectorXd& du);
+  double update_noise(const LinkMoments& moments, NoisePaces& paces);
   double noise_that_makes(const std::vector<Eigen::VectorXd>& defects) const;
   Eigen::Index shared() const;
   Eigen::MatrixXd profile(std::size_t k) const;
@@ -235,7 +245,7 @@ class FlightSmoother {
   chunk::RowMatrix link_slope(std::size_t k) const;
   void set_shares(std::size_t k, chunk::RowMatrix& E) const;
   static void damp_undetermined(chunk::RowMatrix& D, int n);
-  void add_start(std::size_t k, Sweep& at) const;
+  void add_start(std::size_t k, Sweep& at, bool held) const;
   void add_rows(std::size_t k, Sweep& at, bool held) const;
   void add_link(std::size_t k, Sweep& at, bool forward, bool held);
   void eliminate_chunk(std::size_t k, Sweep& at, bool linked);

@@ -72,20 +72,22 @@ void FlightSmoother::damp_undetermined(chunk::RowMatrix& D, int n) {
   }
 }
 
-// What is known of the accelerations from outside where an arc begins.
-void FlightSmoother::add_start(std::size_t k, Sweep& at) const {
-  const VectorXd info = start_information(k), x = outside(k);
-  const Index own = theta_->size(), further = shared() - own;
+// What is known of the state where an arc begins.
+void FlightSmoother::add_start(std::size_t k, Sweep& at, bool held) const {
+  const VectorXd info = start_information(k);
+  VectorXd x = outside(k);
+  const MatrixXd slope = start_slope(k);
+  if (held) x -= slope * linearised_.held;
   at.D().diagonal() += info;
   at.f() += info.cwiseProduct(x);
   at.cost += x.dot(info.cwiseProduct(x));
   for (const double one : info)
     if (one > 0) at.log_det -= std::log(one);
-  if (further == 0) return;
-  const MatrixXd P = profile(k), WP = info.asDiagonal() * P;
-  at.B().rightCols(further) -= WP;
-  at.S().bottomRightCorner(further, further) += P.transpose() * WP;
-  at.g().tail(further) -= WP.transpose() * x;
+  if (held) return;
+  const MatrixXd W_slope = info.asDiagonal() * slope;
+  at.B() -= W_slope;
+  at.S() += slope.transpose() * W_slope;
+  at.g() -= W_slope.transpose() * x;
 }
 
 // Begins chunk k: what the sweep passed to it, and what its rows say of its state.
@@ -95,7 +97,7 @@ void FlightSmoother::add_rows(std::size_t k, Sweep& at, bool held) const {
   const chunk::ConstRowMap A = chunk::A(r);
   const DenseRows& dense = dense_rows();
   std::swap(at.own, at.next);
-  if (k == 0 || !places_[k - 1].linked) add_start(k, at);
+  if (k == 0 || !places_[k - 1].linked) add_start(k, at, held);
   dense.add(rows_of(at.own), rows_in(A), n, n);
   at.f() += chunk::g(r).head(n);
   if (held)

@@ -148,6 +148,33 @@ VectorXd FlightSmoother::outside(std::size_t k) const {
   return x;
 }
 
+// Rotor speeds that nobody measured are known up to a scale, that of km: its slot among the shared unknowns,
+// and by what share of themselves speeds change with a unit of it.
+std::optional<FlightSmoother::SpeedScale> FlightSmoother::scale_of_speeds() const {
+  const std::vector<FreeConstant>& constants = theta_->constants();
+  const auto km = std::ranges::find(constants, int{param::km}, &FreeConstant::index);
+  if (km == constants.end() || record_->layout.motors < 0 || record_->signals.rotor_speeds) return {};
+  const auto slot = static_cast<int>(km - constants.begin());
+  return SpeedScale{slot, theta_->slope(trial_u_, slot) / theta_->physical(trial_u_, slot)};
+}
+
+// How what is expected of the state at the start of an arc moves with the shared unknowns: accelerations by
+// their profiles, rotor speeds with their scale. What stands in for speeds that nothing tells would else tell
+// km.
+MatrixXd FlightSmoother::start_slope(std::size_t k) const {
+  const StateLayout& layout = record_->layout;
+  const Index own = theta_->size();
+  MatrixXd slope = MatrixXd::Zero(layout.size, shared());
+  if (shared() > own) slope.rightCols(shared() - own) = profile(k);
+  const std::optional<SpeedScale> scale = scale_of_speeds();
+  for (int n = 0; n < layout.rotors && scale; ++n) {
+    const MotorState<double>& motor = trial_[k].motors[static_cast<std::size_t>(n)];
+    slope(layout.motors + n, scale->slot) = scale->share * motor.Omega;
+    slope(layout.motors + layout.rotors + n, scale->slot) = scale->share * motor.Omega_dot;
+  }
+  return slope;
+}
+
 Index FlightSmoother::shared() const {
   return theta_->size() + (profiles_.empty() ? 0 : profiles_[0].cols());
 }
@@ -173,14 +200,9 @@ chunk::RowMatrix FlightSmoother::link_slope(std::size_t k) const {
   E.leftCols(n) = whole.leftCols(n);
   E.middleCols(from, m) = whole.rightCols(m);
   // The floor of unmeasured rotor speeds goes with km (link_weight), so what counts is the defect over km.
-  const auto& constants = theta_->constants();
-  const auto km = std::ranges::find(constants, static_cast<int>(param::km), &FreeConstant::index);
-  if (km != constants.end() && record_->layout.motors >= 0 && !record_->signals.rotor_speeds) {
-    const Index j = km - constants.begin();
-    const double relative = theta_->slope(trial_u_, static_cast<int>(j)) / theta_->p(trial_u_)[param::km];
-    E.col(from + j).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
-        relative * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
-  }
+  if (const std::optional<SpeedScale> scale = scale_of_speeds())
+    E.col(from + scale->slot).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
+        scale->share * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
   return E;
 }
 
@@ -227,8 +249,8 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
     }
   // Not omega_m as it stands: with its square for a weight, faster motors would make their noise cheap.
   const double rate = record_->motor_rate;
-  // Rotor speeds that nobody measured are known up to a scale, that of km. The floor goes with it: else less
-  // speed would mean more freedom, and the cost would fall with km.
+  // The floor of speeds that nobody measured goes with their scale: else less speed would mean more freedom,
+  // and the cost would fall with km.
   const double speeds = theta_->p(trial_u_)[param::km] / theta_->p(VectorXd::Zero(theta_->size()))[param::km];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0 * speeds);
