@@ -127,8 +127,8 @@ std::vector<Warning> self_test(const FlightRecord& record, std::span<const Fligh
 
 std::string disqualified(const std::vector<Warning>& warnings) {
   for (const Warning& w : warnings)
-    for (const char* code :
-         {"wrong_frame", "sign_flipped", "axes_swapped", "motor_order", "thrust_weight", "logs_disagree"})
+    for (const char* code : {"wrong_frame", "sign_flipped", "axes_swapped", "motor_order", "rotor_spin",
+                             "thrust_weight", "logs_disagree"})
       if (w.code == code)
         return w.code + ": " + w.message + ". Until that is put right no number of this log can be trusted.";
   return {};
