@@ -55,6 +55,25 @@ TEST(Watched, RotorInertiaThatIsNotStatedIsEstimated) {
   for (const char* name : {"Jp", "Jzz", "kQ"}) expect_known(result, truth, name, 0.05);
 }
 
+// Nothing stated of the yaw, no rotor speeds: Jzz would take the place of Jp, a quarter too small and sure of
+// it, and gusts about yaw the rest.
+TEST(Watched, RotorInertiaIsAskedForAtOnceWhereNothingIsKnownOfTheYaw) {
+  Vehicle truth = quad(0.0);
+  truth.parameters["Jp"].value = 2e-5;
+  Vehicle stated = truth;
+  std::erase_if(stated.parameters, [](const auto& p) { return p.first != "m"; });
+  FlightLog log = flight(truth, 250, 1);
+  log.Omega.clear();
+  const Result result = refine_flight(stated, std::span(&log, 1), {.validate = false});
+  EXPECT_TRUE(result.has_warning("rotor_inertia"));
+  expect_known(result, truth, "Jzz", 0.05);
+  // By itself it is not told, and yet it is there: Jp km is told.
+  ASSERT_NE(result.find("Jp"), nullptr);
+  EXPECT_FALSE(result.find("Jp")->identifiable);
+  EXPECT_NEAR(result.find("Jp")->value * result.find("km")->value, truth.value("Jp") * truth.value("km"),
+              0.1 * truth.value("Jp") * truth.value("km"));
+}
+
 // A vehicle whose rotors' momentum has the other sign than the model's.
 TEST(Watched, NegativeRotorInertiaMakesNothingCertainOfYaw) {
   Vehicle truth = quad(0.0);

@@ -70,11 +70,22 @@ bool watches(const FittedFlight& flight, const std::string& name) {
                              [&](const FreeConstant& c) { return c.watched && c.name == name; });
 }
 
+// How a constant goes with km, which speeds that nobody measured leave open: Omega_0/km and Jp km are told.
+double power_of_km(const std::string& name) {
+  if (name == kOffset) return -1;
+  return name == kRotor ? 1 : 0;
+}
+
 bool may_be_nothing(const FittedFlight& flight, const std::string& name) {
-  const auto& all = flight.theta->constants();
-  const auto i = static_cast<int>(std::ranges::find(all, name, &FreeConstant::name) - all.begin());
-  const double change = flight.theta->physical(flight.fit.u, i) - all[static_cast<std::size_t>(i)].start;
-  return std::abs(change) < kByChance * flight.theta->deviation(flight.fit.u, i, flight.fit.covariance);
+  const Theta& theta = *flight.theta;
+  const VectorXd& u = flight.fit.u;
+  VectorXd relative = VectorXd::Zero(u.size());
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    if (c.name == name) relative[i] = theta.slope(u, i) / (theta.physical(u, i) - c.start);
+    if (c.index == param::km) relative[i] = power_of_km(name) * theta.slope(u, i) / theta.physical(u, i);
+  }
+  return !(kByChance * kByChance * relative.dot(flight.fit.covariance * relative) < 1);
 }
 
 void warn_of(const std::vector<std::string>& found, Result& result) {
@@ -94,18 +105,30 @@ void warn_of(const std::vector<std::string>& found, Result& result) {
                 "estimated too, on which Jzz and kQ depend");
 }
 
+bool is_there(const std::string& name, const std::vector<FreeConstant>& constants, const Vehicle& vehicle) {
+  const auto is_stated = [&](const std::string& of) {
+    return vehicle.has(of) || std::ranges::find(constants, of, &FreeConstant::name) != constants.end();
+  };
+  return is_stated(name) || (name == kDeadTime && is_stated(kDelay)) ||
+         (name == kRotor && is_stated(kMomentum));
+}
+
+// Where nothing is known of the inertia about yaw, it takes the place of that of the rotors, and what the one
+// leaves of the other's work passes for gusts: then both are free from the start.
+bool asks_at_once(const std::vector<FreeConstant>& constants, const Vehicle& vehicle,
+                  const FlightRecord& record) {
+  const auto Jzz = std::ranges::find(constants, int{param::Jzz}, &FreeConstant::index);
+  return record.signals.commands && !is_there(kRotor, constants, vehicle) && Jzz != constants.end() &&
+         !Jzz->prior_std;
+}
+
 // Adds those of `names` to the constants, held where they are and watched: what the flight says against that
 // comes with the fit. Not one that the vehicle states or that is free, nor one that is there as an effect.
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p) {
   if (!record.signals.commands) return;
-  const auto is_stated = [&](const std::string& name) {
-    return vehicle.has(name) || std::ranges::find(constants, name, &FreeConstant::name) != constants.end();
-  };
   for (const std::string& name : names) {
-    if (is_stated(name) || (name == kDeadTime && is_stated(kDelay)) ||
-        (name == kRotor && is_stated(kMomentum)))
-      continue;
+    if (is_there(name, constants, vehicle)) continue;
     const std::vector<FreeConstant> all = free_constants(vehicle, p, {name});
     FreeConstant held = *std::ranges::find(all, name, &FreeConstant::name);
     held.watched = true;
@@ -142,13 +165,25 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
     watch(watched, of, vehicle, record, p);
     return std::make_unique<Theta>(p, std::move(of), record.logs, record.signals.rates);
   };
-  FittedFlight one{theta_of(std::move(constants)), {}};
-  one.fit = fit_flight(record, *one.theta, fit_options);
-  const auto refitted = [&](const std::vector<std::string>& with,
-                            bool from_here) -> std::optional<FittedFlight> {
+  const auto with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> also = options.also;
-    also.insert(also.end(), with.begin(), with.end());
-    FittedFlight other{theta_of(free_constants(vehicle, p, also)), {}};
+    also.insert(also.end(), more.begin(), more.end());
+    return theta_of(free_constants(vehicle, p, also));
+  };
+  FittedFlight one;
+  const auto fit = [&](std::unique_ptr<Theta> theta) {
+    one.theta = std::move(theta);
+    one.fit = fit_flight(record, *one.theta, fit_options);
+  };
+  if (is_in(watched, kRotor) && asks_at_once(constants, vehicle, record)) try {
+      fit(with({kRotor}));
+      found = {kRotor};
+    } catch (const DataError&) {  // nothing flies with it
+    }
+  if (found.empty()) fit(theta_of(std::move(constants)));
+  const auto refitted = [&](const std::vector<std::string>& more,
+                            bool from_here) -> std::optional<FittedFlight> {
+    FittedFlight other{with(more), {}};
     fit_options.start = {}, fit_options.noise.reset();
     if (from_here) {
       fit_options.start = carried(one, *other.theta), fit_options.noise = one.fit.noise;
