@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "support/open_loop_flight.h"
 
 namespace ident {
@@ -49,6 +51,23 @@ TEST(FlightFitSteps, WhatRanAwayIsNoCost) {
     system.cost = cost, system.fall = fall;
     EXPECT_FALSE(is_finite(system)) << cost << ' ' << fall;
   }
+}
+
+// Three that are known as a and b c only, so well that the last digits of what is told of them outweigh what
+// was known of b before.
+TEST(FlightFitSteps, RoundingIsNoInformation) {
+  const Eigen::Vector3d a(1, 0, 0), bc(0.1, 1, 1);
+  Eigen::MatrixXd information = 1e22 * (a * a.transpose() + bc * bc.transpose());
+  information(1, 1) *= 1 + 1e-12;
+  Eigen::MatrixXd prior = Eigen::Vector3d(1e2, 1e4, 1e-2).asDiagonal();
+  const Posterior all = posterior(information, prior);
+  EXPECT_NEAR(std::sqrt(all.covariance(1, 1)), 1e-2, 1e-5);
+  EXPECT_NEAR(std::sqrt(all.covariance(2, 2)), 1e-2, 1e-5);
+  EXPECT_NEAR(all.covariance(1, 2), -1e-4, 1e-7);
+  EXPECT_LT(std::sqrt(all.covariance(0, 0)), 1e-8);
+  // What is no rounding stays.
+  const Eigen::MatrixXd told = Eigen::Vector3d(4.0, 9.0, 1e-4).asDiagonal();
+  EXPECT_NEAR((posterior(told, prior).covariance - (told + prior).inverse()).norm(), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -48,12 +48,12 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
     fit.u = at.u, fit.steps += at.steps;
     return true;
   };
-  const auto covariance = [&] { return inverse_of(smoother.reduced().S + prior_information(theta, fit.u)); };
+  const auto by_all = [&] { return posterior(smoother.reduced().S, prior_information(theta, fit.u)); };
   if (options.exact) smoother.set_steps(Steps::fine);
   // Slopes in single precision may be too coarse to simulate anything.
   if (!minimum(false)) {
     minimum(true);
-  } else if (options.exact && rounding_shows(smoother, covariance())) {
+  } else if (options.exact && rounding_shows(smoother, by_all().covariance)) {
     const std::vector<FlightState<double>> states = smoother.states();
     const VectorXd u = fit.u;
     try {
@@ -66,9 +66,8 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
     }
   }
   fit.cost = smoother.reduced().cost + theta.prior(fit.u).cost();
-  fit.information = smoother.reduced().S;
-  const MatrixXd prior = prior_information(theta, fit.u);
-  fit.naive_covariance = inverse_of(fit.information + prior);
+  Posterior all = by_all();
+  fit.information = std::move(all.information), fit.naive_covariance = std::move(all.covariance);
   fit.blocks = smoother.score_blocks(options.block_seconds);
   if (const NewtonStep last = newton_step(smoother, fit.u);
       last.fall < kSure && is_short(theta, fit.u, last.du)) {
