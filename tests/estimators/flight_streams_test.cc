@@ -133,6 +133,49 @@ TEST(FlightStreams, FilteredRatesAreReadEarlierAndTheForceWithThem) {
   EXPECT_GE(told, 4);
 }
 
+TEST(FlightStreams, RotorSpeedsThatAreLateAreReadEarlier) {
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Vehicle vehicle = random_vehicle(seed);
+    FlightLog log = simulated(vehicle, "mixed", seed);
+    if (log.Omega.empty() || log.Omega[0].empty()) continue;
+    const std::size_t rows = 1 + seed % 4;
+    for (auto& column : log.Omega) delay(column, rows);
+    const std::vector<FlightLog> logs{log};
+    const double late = static_cast<double>(rows) / kRate;
+    const StreamOffset found = stream_offsets(record_of(vehicle, logs), vehicle.g).speeds;
+    EXPECT_NEAR(found.seconds, late, std::max(4 * found.std, 1e-3)) << seed;
+    if (!(5 * found.std < found.seconds)) continue;
+    ++told;
+    std::vector<Warning> warnings;
+    const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+    ASSERT_FALSE(moved.empty()) << seed << ": " << found.seconds << " +- " << found.std;
+    EXPECT_NE(warnings[0].message.find("rotor speeds show the same motion"), std::string::npos);
+    EXPECT_LT(std::abs(stream_offsets(record_of(vehicle, moved), vehicle.g).speeds.seconds), 1e-3) << seed;
+  }
+  EXPECT_GE(told, 4);
+}
+
+// 20 ms is more than a filter makes the rates late by: attitude and motion would be moved, if rotor speeds
+// did not say that it is the IMU.
+TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (auto* of : {&log.w_B, &log.f_B})
+    for (auto& column : *of) delay(column, 4);
+  for (const bool with_speeds : {true, false}) {
+    if (!with_speeds) log.Omega.clear();
+    const std::vector<FlightLog> logs{log};
+    std::vector<Warning> warnings;
+    const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+    ASSERT_FALSE(moved.empty());
+    const bool imu = moved[0].w_B[0][1000] != log.w_B[0][1000],
+               motion = moved[0].x_W[0][1000] != log.x_W[0][1000];
+    EXPECT_EQ(imu, with_speeds) << warnings[0].message;
+    EXPECT_EQ(motion, !with_speeds) << warnings[0].message;
+  }
+}
+
 TEST(FlightStreams, ARealAccelerometerIsLaterThanMotionCapture) {
   IDENT_NEEDS_REAL_DATA(folder);
   Vehicle vehicle;
