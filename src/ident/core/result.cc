@@ -3,26 +3,27 @@
 
 #include <algorithm>
 
+#include "ident/core/json_number.h"
+
 namespace ident {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json to_json(const Parameter& p) {
   Json j;
-  j["value"] = number(p.value);
-  j["std"] = number(p.std);
-  j["ci95"] = {number(p.ci95[0]), number(p.ci95[1])};
+  j["value"] = number_or_null(p.value);
+  j["std"] = number_or_null(p.std);
+  j["ci95"] = {number_or_null(p.ci95[0]), number_or_null(p.ci95[1])};
   j["unit"] = p.unit;
   j["identifiable"] = p.identifiable;
   j["source"] = p.source;
-  if (p.naive_std) j["naive_std"] = number(*p.naive_std);
+  if (p.naive_std) j["naive_std"] = number_or_null(*p.naive_std);
   if (p.prior_value)
-    j["prior"] = {{"value", number(*p.prior_value)}, {"std", number(p.prior_std.value_or(kNaN))}};
-  if (p.pull) j["pull"] = number(*p.pull);
-  if (p.from_flight) j["from_flight"] = number(*p.from_flight);
+    j["prior"] = {{"value", number_or_null(*p.prior_value)},
+                  {"std", number_or_null(p.prior_std.value_or(kNaN))}};
+  if (p.pull) j["pull"] = number_or_null(*p.pull);
+  if (p.from_flight) j["from_flight"] = number_or_null(*p.from_flight);
   if (!p.note.empty()) j["note"] = p.note;
   return j;
 }
@@ -55,7 +56,7 @@ Json to_json(const Result& result) {
     for (Eigen::Index i = 0; i < result.correlation.matrix.rows(); ++i) {
       Json row = Json::array();
       for (Eigen::Index k = 0; k < result.correlation.matrix.cols(); ++k)
-        row.push_back(number(result.correlation.matrix(i, k)));
+        row.push_back(number_or_null(result.correlation.matrix(i, k)));
       rows.push_back(row);
     }
     j["correlation"] = {{"names", result.correlation.names}, {"matrix", rows}};

@@ -11,6 +11,7 @@
 #include "ident/estimators/flight_slow_errors.h"
 #include "ident/estimators/flight_speed_modes.h"
 #include "ident/estimators/flight_velocity_bias.h"
+#include "ident/estimators/flight_voltage.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -50,15 +51,6 @@ StateLayout layout_of(const Signals& s, int rotors) {
   if (s.force || layout.v >= 0) layout.v_dot = take(3);
   layout.size = next;
   return layout;
-}
-
-// What sag is counted from where the vehicle file names no voltage: one for all logs, which share km.
-double highest_voltage(std::span<const FlightLog> logs) {
-  double highest = -1e300;
-  for (const FlightLog& log : logs)
-    for (const double v : log.vbat)
-      if (std::isfinite(v)) highest = std::max(highest, v);
-  return highest;
 }
 
 FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::size_t end,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/core/json_number.h"
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_refine.h"
@@ -129,10 +130,6 @@ Plot picture(std::size_t channel, Series measured, Series simulated) {
   return plot;
 }
 
-nlohmann::ordered_json finite_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 // What a channel's row says. An angle has no zero to be measured from: neither fit nor Theil's coefficient.
 struct ChannelFigures {
   std::string name, unit;
@@ -151,8 +148,8 @@ nlohmann::ordered_json as_json(const std::vector<ChannelFigures>& channels) {
   for (const ChannelFigures& c : channels)
     j[c.name] = {{"rms", c.rms},
                  {"unit", c.unit},
-                 {"fit_percent", finite_or_null(c.fit_percent)},
-                 {"theil", finite_or_null(c.theil)}};
+                 {"fit_percent", number_or_null(c.fit_percent)},
+                 {"theil", number_or_null(c.theil)}};
   return j;
 }
 

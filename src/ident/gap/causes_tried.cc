@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ident/core/error.h"
+#include "ident/core/json_number.h"
 #include "ident/gap/further.h"
 
 namespace ident {
@@ -14,8 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kSeen = 3.63 + 1.28;  // 1 % family-wise over the catalogue, 90 % power
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 // Value, standard deviation and unit of each constant of an adopted effect, under the file format's name.
 Json adopted_parameters(const FittedModel& model, const Candidate& cause) {
@@ -33,7 +32,7 @@ Json adopted_parameters(const FittedModel& model, const Candidate& cause) {
       name = "ground_effect.radius", unit = "m";
       value = std::sqrt(std::max(value, 1e-12)), std = std / (2 * value);
     }
-    j[name] = {{"value", number(value)}, {"std", number(std)}, {"unit", unit}};
+    j[name] = {{"value", number_or_null(value)}, {"std", number_or_null(std)}, {"unit", unit}};
   }
   if (cause.rotor >= 0) j[cause.name + ".rotor"] = {{"value", cause.rotor + 1}, {"std", 0}, {"unit", "-"}};
   return j;
@@ -64,7 +63,7 @@ void enter(Entries& entries, const QuadraticForm& form, const ExtendedProblem& p
     // The largest of its rotors; one that nothing would show, null, is larger than all.
     const auto known = at->limits.find(name);
     if (known == at->limits.end() || (known->is_number() && !(limit <= known->get<double>())))
-      at->limits[name] = number(limit);
+      at->limits[name] = number_or_null(limit);
   }
 }
 
@@ -105,8 +104,8 @@ Json causes_tried(const SearchResult& search,
     out.push_back({{"effect", entry.name},
                    {"probability", search.probability_of(entry.name)},
                    {"detection_limit", entry.limits},
-                   {"closed", number(closed.closed)},
-                   {"closed_ci95", {number(closed.ci95[0]), number(closed.ci95[1])}},
+                   {"closed", number_or_null(closed.closed)},
+                   {"closed_ci95", {number_or_null(closed.ci95[0]), number_or_null(closed.ci95[1])}},
                    {"evidence", entry.gain},
                    {"parameters", adopted ? adopted_parameters(search.best, *found) : Json::object()}});
   }

@@ -10,6 +10,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/json_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
@@ -21,16 +22,18 @@
 #include "ident/estimators/flight_prediction.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_trim.h"
-#include "ident/gap/cause_alone.h"
+#include "ident/estimators/flight_voltage.h"
 #include "ident/gap/causes_tried.h"
 #include "ident/gap/diagnose_trim.h"
 #include "ident/gap/evidence.h"
 #include "ident/gap/gap_sections.h"
 #include "ident/gap/generic_rival.h"
+#include "ident/gap/held_out_gap.h"
 #include "ident/gap/input_smoothing.h"
 #include "ident/gap/model_search.h"
 #include "ident/gap/out_of_balance.h"
 #include "ident/gap/residual_wrench.h"
+#include "ident/gap/search_details.h"
 #include "ident/gap/trust.h"
 #include "ident/gap/verdict.h"
 
@@ -38,8 +41,6 @@ namespace ident {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 void require_known(const std::vector<std::string>& causes) {
   std::vector<std::string> known;
@@ -78,6 +79,21 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
 // first where that told nothing.
 enum class Look { first, closer, last };
 
+// Where the battery matters, it matters at which voltage km holds.
+void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehicle,
+                     std::span<const FlightLog> logs) {
+  const auto tells = [](const std::vector<std::string>& names) {
+    return std::ranges::find(names, "battery_sag") != names.end();
+  };
+  const double highest = highest_voltage(logs);
+  if (vehicle.battery_voltage || !(highest > 0) || !(tells(verdict.effects) || tells(verdict.confused_with)))
+    return;
+  result.warn("battery_voltage",
+              fmt::format("km counts as that at the highest voltage of these logs, {} V: where a bench found "
+                          "it at another, state that as battery_voltage in the vehicle file",
+                          format_number(highest, 4)));
+}
+
 // A diagnosis of a flight that was entered, with what `begun` says of it. None where a first look would be
 // doubtful and a closer one may tell more, and where a closer one ends with a model that cannot be flown.
 std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
@@ -107,32 +123,9 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
           : residual_wrench(record, *search.best.theta, search.best.fit, search.form.noise);
   const Rival rival = generic_rival(record, *search.best.theta, search.best.fit, search.form.noise);
 
-  // Held out: both models fitted to the first 70 % of each log, judged on the rest under the final noise.
-  const FlightRecord held_out = held_out_of(record, kTrainingShare);
-  Json horizons = Json::array();
-  GapClosed gap;
+  const HeldOutGap held_out = held_out_gap(record, search);
+  const GapClosed& gap = held_out.gap;
   const Theta& best = *search.best.theta;
-  const Eigen::VectorXd u_best = fit_of_training(search.best.fit, record, best, kTrainingShare);
-  const PredictionOptions windows{.steps = search.best.fit.smoother->steps()};
-  // "Before" is the model as it was given: bench values, with the biases of the fit.
-  Eigen::VectorXd stated = search.base.fit.u;
-  stated.head(search.base.theta->constants_count()).setZero();
-  const NoiseModel& noise = search.form.noise;
-  PredictionOptions errors = windows;
-  errors.floors = false;
-  const auto a = predict_windows(held_out, *search.base.theta, stated, noise, errors);
-  const auto b = predict_windows(held_out, best, u_best, noise, windows);
-  for (std::size_t h = 0; h < windows.horizons.size(); ++h) {
-    const double horizon = windows.horizons[h];
-    const GapClosed one = gap_closed(a[h], b[h]);
-    if (horizon == 0.5) gap = one;
-    horizons.push_back({{"horizon", horizon},
-                        {"before", number(one.before)},
-                        {"after", number(one.after)},
-                        {"noise_floor", number(one.floor)},
-                        {"closed", number(one.closed)},
-                        {"closed_ci95", {number(one.ci95[0]), number(one.ci95[1])}}});
-  }
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
   const std::vector<Burst> jumps = bursts(record, search.best.fit);
@@ -154,8 +147,10 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   if (hover) verdict = in_hover(std::move(verdict));
   if (noisy_input) {
     const std::vector<std::string> small = below_their_limit(search, least_size(record));
-    const double without =
-        small.empty() ? kNaN : refitted_error(search.base, record, held_out, noise, errors);
+    const double without = small.empty()
+                               ? kNaN
+                               : refitted_error(search.base, record, held_out.record, search.form.noise,
+                                                without_floors(held_out.windows));
     verdict = with_noisy_input(std::move(verdict), loose, small, gap, without);
   }
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
@@ -167,81 +162,30 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
     verdict = with_jitter(std::move(verdict));
   }
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
+  warn_of_battery(result, verdict, vehicle, logs);
   result.extra["verdict"] = {{"status", verdict.status},
                              {"effects", verdict.effects},
                              {"confused_with", verdict.confused_with},
                              {"sentence", verdict.sentence}};
   if (std::isfinite(verdict.remaining)) result.extra["verdict"]["remaining"] = verdict.remaining;
   result.extra["where"] = where_json(before);
-  const auto closed_alone = [&](const Candidate& cause) {
-    if (search.best.adopted.size() == 1) return gap;
-    PredictionOptions fewer = windows;  // every other one tells causes apart
-    fewer.horizons = {windows.horizons[1]}, fewer.spacing *= 2;
-    const auto c = predict_windows(held_out, best, with_only(search.best, u_best, cause), noise, fewer);
-    return gap_closed(same_windows(a[1], c[0]), c[0]);
-  };
-  result.extra["candidates"] = causes_tried(search, closed_alone);
+  result.extra["candidates"] =
+      causes_tried(search, [&](const Candidate& cause) { return closed_alone(held_out, search, cause); });
   if (verdict.refused) doubt_refused(result.parameters, search.best.adopted);
   if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
   if (verdict.plain) trust_more(result.extra["candidates"], verdict.effects);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
-  result.extra["gap"] = {{"before", number(gap.before)},
-                         {"after", number(gap.after)},
-                         {"noise_floor", number(gap.floor)},
-                         {"closed", number(gap.closed)},
-                         {"closed_ci95", {number(gap.ci95[0]), number(gap.ci95[1])}},
-                         {"horizons", horizons}};
-  Json left = Json::object();
-  for (std::size_t c = 0; c < 6; ++c) left[before.names[c]] = rival.gain[c];
-  for (const auto& [channel, gain] : rival.sensors) left[channel] = gain;
-  result.extra["generic_rival"] = left;
-  Json scatter = Json::object();
-  for (const Candidate& c : search.best.adopted) scatter[described(c)] = search.scatter_of(c);
-  result.extra["scatter"] = scatter;
-  Json by_channel = Json::object();
-  for (std::size_t i = 0; i < search.asked.size(); ++i) {
-    Json parts = Json::object();
-    for (const Asked& part : search.asked[i])
-      parts[part.part] = {{"change", part.change}, {"std", part.std}, {"weight", part.weight}};
-    by_channel[described(search.best.adopted[i])] = parts;
-  }
-  result.extra["by_channel"] = by_channel;
-  result.extra["usual_scatter"] = search.usual_scatter();
-  Json narrow = Json::array();
-  for (const SpectralLine& line : lines)
-    narrow.push_back({{"channel", line.channel},
-                      {"hz", line.hz},
-                      {"height", line.height},
-                      {"share", line.share},
-                      {"rotor_hz", number(line.rotor_hz)}});
-  result.extra["lines"] = narrow;
-  if (vibration.found())
-    result.extra["vibration"] = {{"rates", vibration.rates},
-                                 {"force", vibration.force},
-                                 {"speeds", vibration.speeds},
-                                 {"of_rotor", vibration.of_rotor},
-                                 {"unbalanced", vibration.unbalanced()},
-                                 {"stands_out", vibration.stands_out()}};
-  Json struck = Json::array();
-  for (const Burst& one : jumps)
-    struck.push_back({{"channel", one.channel},
-                      {"log", one.log + 1},
-                      {"count", one.count},
-                      {"largest", one.largest},
-                      {"t", one.t}});
-  result.extra["bursts"] = struck;
-  Json steps = Json::array();
-  for (const SearchStep& s : search.steps) steps.push_back({{"adopted", s.name}, {"gain", s.gain}});
-  result.extra["search"] = steps;
-  if (const LevelThrust& seen = search.thrust; std::isfinite(seen.n))
-    result.extra["level_thrust"] = {
-        {"n", seen.n},       {"n_std", seen.n_std},         {"varies", seen.varies},
-        {"left", seen.left}, {"stretches", seen.stretches}, {"plain", seen.plain()}};
-  result.extra["explained"] = search.explained();
+  result.extra["gap"] = {{"before", number_or_null(gap.before)},
+                         {"after", number_or_null(gap.after)},
+                         {"noise_floor", number_or_null(gap.floor)},
+                         {"closed", number_or_null(gap.closed)},
+                         {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}},
+                         {"horizons", as_json(held_out.horizons)}};
+  result.extra.update(search_details({search, before, rival, lines, vibration, jumps}));
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =
-      evidence_of(record, search, {held_out, stated, u_best, noise, a.back(), b.back()}, options.shown);
+      evidence_of(record, search, as_flight(held_out, search.form.noise), options.shown);
   result.extra["signatures"] = to_json(evidence.signatures);
   result.sections = gap_sections(result.extra, before, after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise, vibration));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/core/json_number.h"
 #include "ident/gap/gap_pictures.h"
 #include "ident/gap/signature.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Style = Series::Style;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 std::string with_unit(double value, double std, const std::string& unit) {
   return format_with_uncertainty(value, std) + (unit == "-" ? "" : " " + unit);
@@ -63,10 +62,10 @@ Json to_json(const std::vector<Signature>& signatures) {
     out.push_back({{"cause", s.cause},
                    {"channel", s.channel},
                    {"parameter", s.parameter.empty() ? Json(nullptr) : Json(s.parameter)},
-                   {"found", number(s.found)},
-                   {"found_std", number(s.found_std)},
-                   {"slope", number(s.slope)},
-                   {"correlation", number(s.correlation)},
+                   {"found", number_or_null(s.found)},
+                   {"found_std", number_or_null(s.found_std)},
+                   {"slope", number_or_null(s.slope)},
+                   {"correlation", number_or_null(s.correlation)},
                    {"points", s.x.size()}});
   return out;
 }

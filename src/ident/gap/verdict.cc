@@ -179,7 +179,9 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
         fmt::format(" The model found holds {} as well, which is hardly there and mends the form of what is.",
                     fmt::join(beside, " and "));
   if (std::isfinite(gap.closed) && gap.closed < 0.8)
-    out.sentence += fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining);
+    out.sentence += gap.closed > 0
+                        ? fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining)
+                        : " Held-out flight is not predicted better for it.";
   return out;
 }
 

@@ -1,0 +1,60 @@
+// Predictions of held-out flight by the model as given and by the model found.
+#include "ident/gap/held_out_gap.h"
+
+#include "ident/core/json_number.h"
+#include "ident/gap/cause_alone.h"
+
+namespace ident {
+
+HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search) {
+  HeldOutGap all{.record = held_out_of(record, kTrainingShare)};
+  all.windows.steps = search.best.fit.smoother->steps();
+  all.found = fit_of_training(search.best.fit, record, *search.best.theta, kTrainingShare);
+  // "Before" is the model as it was given: bench values, with the biases of the fit.
+  all.stated = search.base.fit.u;
+  all.stated.head(search.base.theta->constants_count()).setZero();
+  const NoiseModel& noise = search.form.noise;
+  all.before =
+      predict_windows(all.record, *search.base.theta, all.stated, noise, without_floors(all.windows));
+  all.after = predict_windows(all.record, *search.best.theta, all.found, noise, all.windows);
+  for (std::size_t h = 0; h < all.windows.horizons.size(); ++h) {
+    all.horizons.push_back(gap_closed(all.before[h], all.after[h]));
+    if (all.windows.horizons[h] == 0.5) all.gap = all.horizons.back();
+  }
+  return all;
+}
+
+GapClosed closed_alone(const HeldOutGap& all, const SearchResult& search, const Candidate& cause) {
+  if (search.best.adopted.size() == 1) return all.gap;
+  PredictionOptions fewer = all.windows;  // every other one tells causes apart
+  fewer.horizons = {all.windows.horizons[1]}, fewer.spacing *= 2;
+  const auto alone = predict_windows(all.record, *search.best.theta, with_only(search.best, all.found, cause),
+                                     search.form.noise, fewer);
+  return gap_closed(same_windows(all.before[1], alone[0]), alone[0]);
+}
+
+PredictionOptions without_floors(PredictionOptions windows) {
+  windows.floors = false;
+  return windows;
+}
+
+HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise) {
+  return {all.record, all.stated, all.found, noise, all.before.back(), all.after.back()};
+}
+
+nlohmann::ordered_json as_json(const std::vector<GapClosed>& horizons) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  const PredictionOptions windows;
+  for (std::size_t h = 0; h < horizons.size(); ++h) {
+    const GapClosed& one = horizons[h];
+    out.push_back({{"horizon", windows.horizons[h]},
+                   {"before", number_or_null(one.before)},
+                   {"after", number_or_null(one.after)},
+                   {"noise_floor", number_or_null(one.floor)},
+                   {"closed", number_or_null(one.closed)},
+                   {"closed_ci95", {number_or_null(one.ci95[0]), number_or_null(one.ci95[1])}}});
+  }
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,35 @@
+// How far the gap closes on flight that was not fitted.
+#pragma once
+
+#include <vector>
+
+#include "ident/estimators/flight_prediction.h"
+#include "ident/gap/evidence.h"
+#include "ident/gap/search_result.h"
+
+namespace ident {
+
+/// Both models fitted to the first 70 % of each log, judged on the rest under the final noise.
+struct HeldOutGap {
+  FlightRecord record;            ///< the rest
+  Eigen::VectorXd stated, found;  ///< unknowns: the base model as given, the model found
+  PredictionOptions windows;      ///< over which both predict
+  std::vector<std::vector<PredictionWindow>> before, after;  ///< a list for each horizon
+  std::vector<GapClosed> horizons;
+  GapClosed gap;  ///< over 0.5 s
+};
+HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search);
+
+/// The same of one of the causes found, by itself, over 0.5 s.
+GapClosed closed_alone(const HeldOutGap& all, const SearchResult& search, const Candidate& cause);
+
+/// The same windows, errors only.
+PredictionOptions without_floors(PredictionOptions windows);
+
+/// For pictures and signatures.
+HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise);
+
+/// As `gap.horizons` of a result, whose horizons are those of PredictionOptions.
+nlohmann::ordered_json as_json(const std::vector<GapClosed>& horizons);
+
+}  // namespace ident
