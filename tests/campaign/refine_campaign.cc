@@ -114,7 +114,9 @@ int main(int argc, char** argv) {
       {"gusts-filter", {.turbulence = true, .filter = true}},
       {"gusts-shaken", {.turbulence = true, .shaken = 2.0}},
       {"still-speeds", {.commands = false}},
-      {"gusts-speeds", {.turbulence = true, .commands = false}}};
+      {"gusts-speeds", {.turbulence = true, .commands = false}},
+      {"still-many", {.many_rotors = true}},
+      {"gusts-many", {.turbulence = true, .by_gyro = true, .many_rotors = true}}};
   const auto kind = kinds.find(argc > 2 ? argv[2] : "");
   if (argc < 4 || kind == kinds.end()) {
     fmt::print(
@@ -127,7 +129,7 @@ int main(int argc, char** argv) {
         "gusts-filter "
         "with what a filter shows; gusts-shaken with an IMU that feels the rotors; still-speeds, "
         "gusts-speeds "
-        "without commands\n");
+        "without commands; still-many, gusts-many with six or eight rotors\n");
     return 2;
   }
   const std::uint64_t first = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;

@@ -11,6 +11,7 @@
 #include "ident/estimators/flight_refine.h"
 #include "ident/io/vehicle_file.h"
 #include "support/random_vehicle.h"
+#include "support/ring_of_rotors.h"
 #include "support/shaken.h"
 #include "support/slow_errors.h"
 
@@ -26,6 +27,15 @@ constexpr double kPush = 0.3, kTurn = 0.006, kGustTime = 1.5;  // as in model/tu
 Vehicle drawn_vehicle(std::uint64_t seed) {
   for (std::uint64_t k = 1000 * seed;; ++k)
     if (Vehicle v = random_vehicle(k); !v.layout.empty()) return v;
+}
+
+/// The same vehicle with six or eight rotors, which share its thrust.
+Vehicle with_many_rotors(Vehicle v, std::uint64_t seed) {
+  const int rotors = seed % 2 == 0 ? 6 : 8;
+  for (const char* name : {"kT", "kQ", "Jp"}) v.parameters.at(name).value *= 4.0 / rotors;
+  v.rotors = testing::ring(rotors, v.arm.value());
+  v.layout.clear(), v.parameters.erase("alpha");
+  return v;
 }
 
 /// What a bench says: a standard deviation of 5 to 20 % of the truth, and a value drawn with it. Every other
@@ -156,8 +166,9 @@ Case random_case(std::uint64_t seed, const CaseOptions& options) {
   Case c;
   c.seed = seed;
   c.truth = drawn_vehicle(seed);
+  if (options.many_rotors) c.truth = with_many_rotors(c.truth, seed);
   c.stated = measured(c.truth, random);
-  c.rotor_speeds = random.below(4) != 0 || !options.commands;
+  c.rotor_speeds = random.below(4) >= (options.many_rotors ? 2 : 1) || !options.commands;
   static const std::array<std::string, 4> second = {"mixed", "hover", "steps", "eight"};
   c.drift.sigma = options.drift, c.filter = options.filter, c.shaken = options.shaken,
   c.one_by_one = options.one_by_one;

@@ -37,13 +37,14 @@ struct Case {
 struct CaseOptions {
   double seconds = 40.0;  ///< of each of two logs
   bool turbulence = false;
-  bool commands = true;     ///< without, measured rotor speeds are the input
-  double drift = 0.0;       ///< standard deviation of a slow error of the attitude shown, rad
-  bool filter = false;      ///< attitude, velocity and position as a complementary filter shows them
-  bool silent = false;      ///< nobody states Jp, nor a dead time, which half of the vehicles have
-  bool by_gyro = false;     ///< the controller flies by the rates that the log shows, as an autopilot does
-  double shaken = 0.0;      ///< amplitude of a rotor's tone in the IMU, in units of the accelerometer's noise
-  bool one_by_one = false;  ///< the logs one after the other, what the first tells stored in between
+  bool commands = true;  ///< without, measured rotor speeds are the input
+  double drift = 0.0;    ///< standard deviation of a slow error of the attitude shown, rad
+  bool filter = false;   ///< attitude, velocity and position as a complementary filter shows them
+  bool silent = false;   ///< nobody states Jp, nor a dead time, which half of the vehicles have
+  bool by_gyro = false;  ///< the controller flies by the rates that the log shows, as an autopilot does
+  double shaken = 0.0;   ///< amplitude of a rotor's tone in the IMU, in units of the accelerometer's noise
+  bool many_rotors = false;  ///< six or eight, half of the vehicles without rotor speeds
+  bool one_by_one = false;   ///< the logs one after the other, what the first tells stored in between
 };
 
 /// Layouts 4sp, plus and x; a quarter without rotor speeds; each constant but the mass (0.2 %) known to 5 to
