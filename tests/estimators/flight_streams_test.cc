@@ -176,6 +176,25 @@ TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {
   }
 }
 
+// What a satellite tells comes late; the force would be moved, if rotor speeds did not say that it is in
+// time.
+TEST(FlightStreams, RotorSpeedsTellWhetherThePathIsLate) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (auto* of : {&log.v_W, &log.x_W})
+    for (auto& column : *of) delay(column, 8);
+  for (const bool with_speeds : {true, false}) {
+    if (!with_speeds) log.Omega.clear();
+    const std::vector<FlightLog> logs{log};
+    std::vector<Warning> warnings;
+    const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+    ASSERT_FALSE(moved.empty());
+    EXPECT_EQ(moved[0].f_B[2][1000] != log.f_B[2][1000], !with_speeds) << warnings[0].message;
+    EXPECT_EQ(moved[0].v_W[2][1000] != log.v_W[2][1000], with_speeds) << warnings[0].message;
+    EXPECT_EQ(moved[0].q_WB[1][1000], log.q_WB[1][1000]);
+  }
+}
+
 TEST(FlightStreams, ARealAccelerometerIsLaterThanMotionCapture) {
   IDENT_NEEDS_REAL_DATA(folder);
   Vehicle vehicle;

@@ -2,6 +2,7 @@
 #include "ident/estimators/flight_refine.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,14 +66,35 @@ nlohmann::ordered_json as_json(const FlightRecord& record, const FlightFit& fit)
   return j;
 }
 
+// What is known only together, a warning for each group that hangs together.
 void warn_of_correlated(Result& result) {
+  constexpr double kTogether = 0.95;
   const auto& [names, correlation] = result.correlation;
-  for (Eigen::Index i = 0; i < correlation.rows(); ++i)
-    for (Eigen::Index k = 0; k < i; ++k)
-      if (std::abs(correlation(i, k)) > 0.95)
-        result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
-                                              names[static_cast<std::size_t>(k)],
-                                              names[static_cast<std::size_t>(i)], correlation(i, k)));
+  const auto n = static_cast<Eigen::Index>(names.size());
+  std::vector<bool> told(names.size(), false);
+  for (Eigen::Index first = 0; first < n; ++first) {
+    if (told[static_cast<std::size_t>(first)]) continue;
+    std::vector<Eigen::Index> group{first};
+    double most = 0;
+    for (std::size_t at = 0; at < group.size(); ++at)
+      for (Eigen::Index k = first + 1; k < n; ++k) {
+        const double r = k == group[at] ? 0.0 : correlation(group[at], k);
+        if (!(std::abs(r) > kTogether)) continue;
+        if (std::abs(r) > std::abs(most)) most = r;
+        if (std::ranges::find(group, k) == group.end()) group.push_back(k);
+      }
+    std::vector<std::string> members;
+    for (const Eigen::Index k : group) {
+      told[static_cast<std::size_t>(k)] = true;
+      members.push_back(names[static_cast<std::size_t>(k)]);
+    }
+    if (members.size() == 2)
+      result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
+                                            members[0], members[1], most));
+    else if (members.size() > 2)
+      result.warn("correlated", fmt::format("{} are known only together (correlations up to {:.3f})",
+                                            fmt::join(members, ", "), most));
+  }
 }
 
 // Constants that are asked for where the logs contradict a file that is silent about them.

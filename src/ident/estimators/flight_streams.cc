@@ -22,6 +22,7 @@ constexpr double kShortTime = 0.03;  ///< s before and after over which an accel
 constexpr double kShortestOfRates = 1e-3, kShortestOfForce = 8e-3;
 /// s by which rotor speeds are later than the force that they make; earlier they are by any filter of that.
 constexpr double kShortestOfSpeeds = 4e-3;
+constexpr double kSureOfSpeeds = 3.0;  ///< standard deviations
 constexpr double kLongestFilter =
     8e-3;  ///< s by which an autopilot's filters make the sensors of its IMU late
 
@@ -106,51 +107,90 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
   return found;
 }
 
+namespace {
+
+/// By how much earlier the streams are read, s, and what is said of it.
+struct Moves {
+  double rates = 0, force = 0, attitude = 0, path = 0, speeds = 0;
+  std::vector<Warning> said;
+
+  bool any() const { return !said.empty(); }
+  void say(const std::string& what, const char* against, double late, double std, const char* how = "") {
+    said.push_back(
+        {"stream_offset",
+         fmt::format("{} the same motion {} ms (± {}) {} than {}: {}read that much {}", what,
+                     format_number(1e3 * std::abs(late), 2), format_number(1e3 * std, 1),
+                     late > 0 ? "later" : "earlier", against, how, late > 0 ? "earlier" : "later")});
+  }
+};
+
+// Late rates were filtered, and so was the specific force; what is later than that came by another way, or
+// rotor speeds show that it is the IMU that is late.
+void move_turns(const StreamOffsets& found, double interval, Moves& moves) {
+  const auto& [rates, force, speeds] = found;
+  if (!rates.matters(interval, kShortestOfRates)) return;
+  const bool filtered = rates.seconds > 0 && rates.seconds < kLongestFilter;
+  const bool imu = rates.seconds > 0 && speeds.matters(interval, kShortestOfSpeeds) &&
+                   speeds.seconds < -0.5 * rates.seconds;
+  if (filtered || imu) {
+    moves.rates = moves.force = rates.seconds;
+    moves.say("the rates show", "the attitude", rates.seconds, rates.std,
+              filtered ? "as filtered, with the specific force, "
+                       : "as rotor speeds say, with the specific force, ");
+  } else {
+    moves.attitude = moves.path = -rates.seconds;
+    moves.say("attitude, velocity and position show", "the rates", -rates.seconds, rates.std);
+  }
+}
+
+// What is then left between force and velocity. Where the force is in time with the rotor speeds that make
+// it, it is the motion that is late; with the attitude, unless that is in time with the rates.
+void move_force(const StreamOffsets& found, double interval, Moves& moves) {
+  StreamOffset force = found.force;
+  force.seconds += moves.path - moves.force;
+  if (!force.matters(interval, kShortestOfForce)) return;
+  const double half = 0.5 * std::abs(force.seconds);
+  if (std::abs(found.speeds.seconds) < half && kSureOfSpeeds * found.speeds.std < half) {
+    const bool attitude = !std::isfinite(found.rates.std);
+    moves.path -= force.seconds;
+    if (attitude) moves.attitude -= force.seconds;
+    moves.say(attitude ? "attitude, velocity and position show" : "velocity and position show",
+              "the specific force and the rotor speeds", -force.seconds, force.std);
+  } else {
+    moves.force += force.seconds;
+    moves.say("the specific force shows", "the velocity", force.seconds, force.std);
+  }
+}
+
+void move_speeds(const StreamOffsets& found, double interval, Moves& moves) {
+  StreamOffset speeds = found.speeds;
+  speeds.seconds += moves.force;
+  if (!(speeds.seconds > 0) || !speeds.matters(interval, kShortestOfSpeeds)) return;
+  moves.speeds = speeds.seconds;
+  moves.say("rotor speeds show", "the specific force", speeds.seconds, speeds.std);
+}
+
+}  // namespace
+
 std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
                                        double gravity, std::vector<Warning>& warnings) {
-  const auto [rates, force_alone, speeds_alone] = stream_offsets(record, gravity);
-  const bool move_turns = rates.matters(record.interval, kShortestOfRates);
-  // Late rates were filtered, and so was the specific force; what is later than that came by another way, or
-  // rotor speeds show that it is the IMU that is late.
-  const bool speeds_agree =
-      speeds_alone.matters(record.interval, kShortestOfSpeeds) && speeds_alone.seconds < -0.5 * rates.seconds;
-  const bool filtered = move_turns && rates.seconds > 0 && (rates.seconds < kLongestFilter || speeds_agree);
-  const bool move_motion = move_turns && !filtered;
-  StreamOffset force = force_alone;
-  if (move_turns) force.seconds -= rates.seconds;
-  const bool move_force = force.matters(record.interval, kShortestOfForce);
-  StreamOffset speeds = speeds_alone;
-  if (filtered) speeds.seconds += rates.seconds;
-  if (move_force) speeds.seconds += force.seconds;
-  const bool move_speeds = speeds.seconds > 0 && speeds.matters(record.interval, kShortestOfSpeeds);
-  if (!move_turns && !move_force && !move_speeds) return {};
+  const StreamOffsets found = stream_offsets(record, gravity);
+  Moves moves;
+  move_turns(found, record.interval, moves);
+  move_force(found, record.interval, moves);
+  move_speeds(found, record.interval, moves);
+  if (!moves.any()) return {};
+  warnings.insert(warnings.end(), moves.said.begin(), moves.said.end());
   std::vector<FlightLog> out(logs.begin(), logs.end());
-  const auto tell = [&](const char* what, const char* against, const StreamOffset& o, const char* moved) {
-    warnings.push_back(
-        {"stream_offset", fmt::format("{} the same motion {} ms (± {}) {} than {}: {}read that much {}", what,
-                                      format_number(1e3 * std::abs(o.seconds), 2),
-                                      format_number(1e3 * o.std, 1), o.seconds > 0 ? "later" : "earlier",
-                                      against, moved, o.seconds > 0 ? "earlier" : "later")});
-  };
-  const auto later = [](FlightLog& log, auto& columns, double seconds) {
-    for (auto& column : columns) read_later(log.t, column, seconds);
-  };
-  const StreamOffset motion{-rates.seconds, rates.std};
-  if (filtered)
-    tell("the rates show", "the attitude", rates,
-         rates.seconds < kLongestFilter ? "as filtered, with the specific force, "
-                                        : "as rotor speeds say, with the specific force, ");
-  if (move_motion) tell("attitude, velocity and position show", "the rates", motion, "");
-  if (move_force) tell("the specific force shows", "the velocity", force, "");
-  if (move_speeds) tell("rotor speeds show", "the specific force", speeds, "");
   for (FlightLog& log : out) {
-    if (filtered) later(log, log.w_B, rates.seconds), later(log, log.f_B, rates.seconds);
-    if (move_motion) {
-      read_attitude_later(log, motion.seconds);
-      later(log, log.v_W, motion.seconds), later(log, log.x_W, motion.seconds);
-    }
-    if (move_force) later(log, log.f_B, force.seconds);
-    if (move_speeds) later(log, log.Omega, speeds.seconds);
+    const auto earlier = [&](auto& columns, double seconds) {
+      if (seconds == 0) return;
+      for (auto& column : columns) read_later(log.t, column, seconds);
+    };
+    earlier(log.w_B, moves.rates), earlier(log.f_B, moves.force);
+    if (moves.attitude != 0) read_attitude_later(log, moves.attitude);
+    earlier(log.v_W, moves.path), earlier(log.x_W, moves.path);
+    earlier(log.Omega, moves.speeds);
   }
   return out;
 }
