@@ -178,6 +178,12 @@ TEST(FlightSelfTest, LogsThatSayLittleAreNamed) {
   for (std::size_t i = 0; i < limited.rows(); i += 20) limited.delta[1][i] = 1.0;
   EXPECT_TRUE(names(findings(vehicle, limited), "saturated_commands"));
 
+  FlightLog coarse = clean_log(vehicle);
+  for (auto& column : coarse.delta)
+    for (double& x : column) x = 0.01 * std::round(100 * x);
+  EXPECT_TRUE(names(findings(vehicle, coarse), "coarse_commands", "steps of 1 %"))
+      << in_words(findings(vehicle, coarse));
+
   SimulationOptions slow = flight_options("mixed", 10, 1);
   slow.rate = 20, slow.longest_step = 5e-3;
   const std::vector<Warning> found = findings(vehicle, simulate_flight(vehicle, slow).log);

@@ -1,9 +1,13 @@
 // What is negative beyond chance makes up for something else, and nothing that goes with it is known.
 #include "ident/estimators/flight_impossible.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "ident/core/format_number.h"
 
 namespace ident {
 
@@ -14,9 +18,10 @@ void doubt_negative_dead_time(Result& result) {
   if (early == result.parameters.end()) return;
   early->doubt({});
   early->note = "negative: no motor turns before its command";
-  // What is early makes up for what else is late: motors that are too slow go with it.
+  // What is early makes up for what else is late: motors that are too slow go with it, and rotors whose
+  // inertia is ahead of their drag.
   for (Parameter& p : result.parameters)
-    if (p.name == "omega_m" || p.name == "zeta_m")
+    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "Jp")
       p.doubt("goes with a negative dead_time, which no motor has");
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
   result.warn(
@@ -36,6 +41,32 @@ void doubt_negative_rotor_inertia(Result& result) {
   result.warn("negative_rotor_inertia",
               "the vehicle turns with the rotors that speed up, not against them, and of yaw nothing certain "
               "is said: a rotor's direction is stated wrong, or the model lacks something (try ident gap)");
+}
+
+void doubt_motors_without_effect(Result& result) {
+  constexpr double kSlower = 5.0, kLong = 0.2;  // times the lag as stated; s
+  const Parameter *omega_m = result.find("omega_m"), *zeta_m = result.find("zeta_m");
+  if (!omega_m || !zeta_m || !omega_m->prior_value || !zeta_m->prior_value) return;
+  const auto lag = [](double zeta, double omega) { return 2 * zeta / omega; };
+  const double found = lag(zeta_m->value, omega_m->value),
+               stated = lag(*zeta_m->prior_value, *omega_m->prior_value);
+  if (!(found > kLong && found > kSlower * stated)) return;
+  for (Parameter& p : result.parameters)
+    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "dead_time" || p.name == "km")
+      p.doubt("motors as fitted hardly follow their commands");
+  result.warn(
+      "motors_without_effect",
+      fmt::format("these logs fit best where rotors follow their commands after {} s, stated is {} s, and "
+                  "so hardly at all: the commands are not those of this vehicle or of this flight, or "
+                  "the model lacks something larger (try ident gap)",
+                  format_number(found, 2), format_number(stated, 2)));
+}
+
+void doubt_coarse_commands(Result& result) {
+  if (!result.has_warning("coarse_commands")) return;
+  for (Parameter& p : result.parameters)
+    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "dead_time" || p.name == "Omega_0")
+      p.doubt("commands were logged in coarse steps");
 }
 
 void doubt_contradicted(Result& result) {

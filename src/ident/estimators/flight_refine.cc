@@ -212,6 +212,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     warn_of_steady_turn(result, steady_turn(record, theta, fit), record, logs);
   if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
   doubt_contradicted(result);
+  doubt_motors_without_effect(result);
+  doubt_coarse_commands(result);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);

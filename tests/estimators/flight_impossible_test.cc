@@ -1,0 +1,60 @@
+// Estimates that no vehicle has: what is said of them, and what else counts as not known then.
+#include "ident/estimators/flight_impossible.h"
+
+#include <gtest/gtest.h>
+
+namespace ident {
+namespace {
+
+Parameter told(const std::string& name, double value, double prior) {
+  Parameter p;
+  p.name = name, p.value = value, p.std = 0.01 * std::abs(value), p.identifiable = true;
+  p.prior_value = prior, p.prior_std = 0.1 * prior;
+  return p;
+}
+
+Result with_motors(double omega_m, double zeta_m, double dead_time) {
+  Result result;
+  result.parameters = {
+      told("omega_m", omega_m, 25), told("zeta_m", zeta_m, 1.0), told("dead_time", dead_time, 0.004),
+      told("km", 900, 900),         told("Jp", 2e-6, 2e-6),      told("Jxx", 3e-3, 3e-3)};
+  return result;
+}
+
+std::string not_known(const Result& result) {
+  std::string names;
+  for (const Parameter& p : result.parameters)
+    if (!p.identifiable) names += p.name + " ";
+  return names;
+}
+
+// Stated is a lag of 2 1.0/25 = 0.08 s.
+TEST(FlightImpossible, MotorsThatHardlyFollowTheirCommandsAreNoMotors) {
+  Result result = with_motors(0.3, 0.9, 0.004);  // 6 s
+  doubt_motors_without_effect(result);
+  EXPECT_TRUE(result.has_warning("motors_without_effect"));
+  EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time km ");
+  result = with_motors(8, 1.2, 0.004);  // 0.3 s: slow, and less than five times what was stated
+  doubt_motors_without_effect(result);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_EQ(not_known(result), "");
+}
+
+TEST(FlightImpossible, WhatGoesWithANegativeDeadTimeIsNotKnown) {
+  Result result = with_motors(25, 1.0, -0.01);
+  doubt_negative_dead_time(result);
+  EXPECT_TRUE(result.has_warning("negative_dead_time"));
+  EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time Jp ");
+}
+
+TEST(FlightImpossible, CoarseCommandsLeaveTheLagOpen) {
+  Result result = with_motors(25, 1.0, 0.004);
+  doubt_coarse_commands(result);
+  EXPECT_EQ(not_known(result), "");
+  result.warn("coarse_commands", "");
+  doubt_coarse_commands(result);
+  EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time ");
+}
+
+}  // namespace
+}  // namespace ident
