@@ -65,6 +65,17 @@ TEST(FlightFitSteps, RoundingIsNoInformation) {
   EXPECT_NEAR(std::sqrt(all.covariance(2, 2)), 1e-2, 1e-5);
   EXPECT_NEAR(all.covariance(1, 2), -1e-4, 1e-7);
   EXPECT_LT(std::sqrt(all.covariance(0, 0)), 1e-8);
+  EXPECT_LT((all.information - all.information.transpose()).norm(), 1e-9 * all.information.norm());
+  EXPECT_NEAR(all.information(0, 0), information(0, 0), 1e-9 * information(0, 0));
+  // Where two directions are not told, b against c and d, whatever the scale of the others.
+  for (const double much : {1e14, 1e18, 1e22}) {
+    const Eigen::Vector4d one(1, 0, 0, 0), e(0, 1, 1, std::sqrt(1e-2 / much));
+    const Posterior two =
+        posterior(much * (one * one.transpose() + e * e.transpose()), 1e-2 * Eigen::MatrixXd::Identity(4, 4));
+    EXPECT_NEAR(two.covariance(1, 1), 50.0, 1.0) << much;
+    EXPECT_NEAR(two.covariance(3, 3), 100.0, 51.0) << much;
+    EXPECT_GT(two.covariance(0, 0), 0.0) << much;
+  }
   // What is no rounding stays.
   const Eigen::MatrixXd told = Eigen::Vector3d(4.0, 9.0, 1e-4).asDiagonal();
   EXPECT_NEAR((posterior(told, prior).covariance - (told + prior).inverse()).norm(), 0.0, 1e-12);

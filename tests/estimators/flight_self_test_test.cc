@@ -178,11 +178,13 @@ TEST(FlightSelfTest, LogsThatSayLittleAreNamed) {
   for (std::size_t i = 0; i < limited.rows(); i += 20) limited.delta[1][i] = 1.0;
   EXPECT_TRUE(names(findings(vehicle, limited), "saturated_commands"));
 
-  FlightLog coarse = clean_log(vehicle);
-  for (auto& column : coarse.delta)
-    for (double& x : column) x = 0.01 * std::round(100 * x);
-  EXPECT_TRUE(names(findings(vehicle, coarse), "coarse_commands", "steps of 1 %"))
-      << in_words(findings(vehicle, coarse));
+  const FlightLog fine = clean_log(vehicle);
+  for (const auto& [steps, told] : {std::pair(12.0, true), {100.0, true}, {250.0, false}, {1000.0, false}}) {
+    FlightLog coarse = fine;
+    for (auto& column : coarse.delta)
+      for (double& x : column) x = std::round(steps * x) / steps;
+    EXPECT_EQ(names(findings(vehicle, coarse), "coarse_commands"), told) << steps;
+  }
 
   SimulationOptions slow = flight_options("mixed", 10, 1);
   slow.rate = 20, slow.longest_step = 5e-3;

@@ -195,6 +195,47 @@ TEST(FlightStreams, RotorSpeedsTellWhetherThePathIsLate) {
   }
 }
 
+TEST(FlightStreams, APathIsLateInALogWithoutAttitude) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (auto* of : {&log.v_W, &log.x_W})
+    for (auto& column : *of) delay(column, 8);
+  for (auto& column : log.q_WB) column.clear();
+  const std::vector<FlightLog> logs{log};
+  std::vector<Warning> warnings;
+  const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+  ASSERT_FALSE(moved.empty());
+  EXPECT_NE(warnings[0].message.find("the velocity and position show"), std::string::npos)
+      << warnings[0].message;
+  EXPECT_FALSE(moved[0].has_attitude());
+}
+
+// Force and speeds are in time with each other once the IMU was moved: what is left is the path's.
+TEST(FlightStreams, ImuAndPathMayBeLateBoth) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (auto* of : {&log.w_B, &log.f_B, &log.v_W, &log.x_W})
+    for (auto& column : *of) delay(column, 4);
+  const std::vector<FlightLog> logs{log};
+  std::vector<Warning> warnings;
+  const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+  ASSERT_FALSE(moved.empty());
+  const StreamOffsets left = stream_offsets(record_of(vehicle, moved), vehicle.g);
+  for (const StreamOffset& one : {left.rates, left.force, left.speeds})
+    EXPECT_LT(std::abs(one.seconds), 2e-3) << warnings[0].message;
+}
+
+// Held from one sample to the next, speeds in time look late by half of what is between.
+TEST(FlightStreams, SpeedsThatAreSampledSeldomTellNothing) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (auto& column : log.Omega)
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (i % 4 != 0) column[i] = kNaN;
+  const std::vector<FlightLog> logs{log};
+  EXPECT_FALSE(std::isfinite(stream_offsets(record_of(vehicle, logs), vehicle.g).speeds.std));
+}
+
 TEST(FlightStreams, ARealAccelerometerIsLaterThanMotionCapture) {
   IDENT_NEEDS_REAL_DATA(folder);
   Vehicle vehicle;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -151,11 +152,15 @@ Posterior posterior(const MatrixXd& information, const MatrixXd& prior) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(s.asDiagonal() * information * s.asDiagonal());
   const VectorXd& values = eigen.eigenvalues();
   const VectorXd told = (values.array() > kRounding * values.maxCoeff()).select(values, 0.0);
-  const MatrixXd axes = s.asDiagonal() * eigen.eigenvectors(),
-                 back = s.cwiseInverse().asDiagonal() * eigen.eigenvectors();
-  MatrixXd along = axes.transpose() * prior * axes;
-  along.diagonal() += told;
-  return {axes * inverse_of(along) * axes.transpose(), back * told.asDiagonal() * back.transpose()};
+  const MatrixXd root = s.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
+                        told.cwiseSqrt().asDiagonal();  // of the information
+  // In units of the prior, prior = L L', what nothing tells keeps a variance of one, however much else is
+  // told.
+  const Eigen::LLT<MatrixXd> L(prior);
+  const Eigen::JacobiSVD<MatrixXd> shares(L.matrixL().solve(root), Eigen::ComputeFullU);
+  const VectorXd left = (1 + shares.singularValues().array().square()).inverse();
+  const MatrixXd axes = L.matrixU().solve(shares.matrixU());
+  return {axes * left.asDiagonal() * axes.transpose(), root * root.transpose()};
 }
 
 NewtonStep newton_step(const FlightSmoother& smoother, const VectorXd& u) {

@@ -62,8 +62,9 @@ Eigen::MatrixXd prior_information(const Theta& theta, const Eigen::VectorXd& u);
 /// Inverse of a symmetric positive definite matrix whose unknowns have very unlike scales.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& M);
 
-/// Inverse of information + prior, and that information without what is rounding: where a log has next to no
-/// noise, a direction that it does not tell would seem to be told by the last digits of the others.
+/// Inverse of information + prior, which is positive definite, and that information without what is rounding:
+/// where a log has next to no noise, a direction that it does not tell would seem to be told by the last
+/// digits of the others.
 struct Posterior {
   Eigen::MatrixXd covariance, information;
 };

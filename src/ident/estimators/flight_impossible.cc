@@ -44,7 +44,7 @@ void doubt_negative_rotor_inertia(Result& result) {
 }
 
 void doubt_motors_without_effect(Result& result) {
-  constexpr double kSlower = 5.0, kLong = 0.2;  // times the lag as stated; s
+  constexpr double kSlower = 5.0, kLong = 1.0;  // times the lag as stated; s, slower than any motor
   const Parameter *omega_m = result.find("omega_m"), *zeta_m = result.find("zeta_m");
   if (!omega_m || !zeta_m || !omega_m->prior_value || !zeta_m->prior_value) return;
   const auto lag = [](double zeta, double omega) { return 2 * zeta / omega; };

@@ -23,7 +23,8 @@ void doubt_contradicted(Result& result);
 /// any that fly: a fit that leaves the commands aside.
 void doubt_motors_without_effect(Result& result);
 
-/// The same where the self-test found that commands were logged in coarse steps.
+/// Doubts the motors' lag and their offset where the self-test found that commands were logged in coarse
+/// steps.
 void doubt_coarse_commands(Result& result);
 
 }  // namespace ident

@@ -92,8 +92,8 @@ void warn_of_correlated(Result& result) {
       result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
                                             members[0], members[1], most));
     else if (members.size() > 2)
-      result.warn("correlated", fmt::format("{} are known only together (correlations up to {:.3f})",
-                                            fmt::join(members, ", "), most));
+      result.warn("correlated", fmt::format("{} are known only together (correlations up to {:.3f} in size)",
+                                            fmt::join(members, ", "), std::abs(most)));
   }
 }
 

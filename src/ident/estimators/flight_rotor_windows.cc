@@ -115,6 +115,7 @@ YawShares yaw_shares(const RotorWindows& windows, const std::vector<RotorMoment>
                both = correlation(by_thrust, by_spin);
   // Least squares over the two with weights of one sign.
   const auto share = [&](double sign) {
+    if (sign < 0 && t > 0) return 0.0;  // drag as stated: it is not the spin that is wrong
     const double a = sign * (t - both * s), b = sign * (s - both * t);
     if (a > 0 && b > 0) return (a * sign * t + b * sign * s) / std::max(1 - both * both, 1e-9);
     return std::pow(std::max({sign * t, sign * s, 0.0}), 2);

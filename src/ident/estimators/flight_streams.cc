@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "ident/core/format_number.h"
 #include "ident/core/parallel.h"
@@ -23,8 +24,8 @@ constexpr double kShortestOfRates = 1e-3, kShortestOfForce = 8e-3;
 /// s by which rotor speeds are later than the force that they make; earlier they are by any filter of that.
 constexpr double kShortestOfSpeeds = 4e-3;
 constexpr double kSureOfSpeeds = 3.0;  ///< standard deviations
-constexpr double kLongestFilter =
-    8e-3;  ///< s by which an autopilot's filters make the sensors of its IMU late
+/// s by which an autopilot's filters make the sensors of its IMU late
+constexpr double kLongestFilter = 8e-3;
 
 std::size_t half_width(const FlightArc& arc) {
   const double interval = (arc.t.back() - arc.t.front()) / static_cast<double>(arc.rows() - 1);
@@ -63,6 +64,14 @@ Track sum_of_force(const FlightArc& arc) {
   return integral(arc.t, size);
 }
 
+bool sampled_in_every_row(const FlightArc& arc, int channel) {
+  constexpr double kMost = 0.95;
+  double sampled = 0;
+  for (std::size_t i = 0; i < arc.rows(); ++i)
+    sampled += std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(channel)]);
+  return sampled > kMost * static_cast<double>(arc.rows());
+}
+
 /// The running integral of the thrust along z of speeds as measured, over kT.
 Track sum_of_thrust(const FlightArc& arc, const FlightRecord& record) {
   Track thrust(arc.rows(), 0.0);
@@ -86,11 +95,18 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
   const auto forces = [&](const FlightArc& arc) {
     return StreamSides{{sum_of_acceleration(arc, gravity)}, {sum_of_force(arc)}};
   };
-  const auto offset_by = [&](bool logged, double lag, const auto& sides_of) {
+  const auto any = [](const FlightArc&) { return true; };
+  const auto offset_by = [&](bool logged, double lag, const auto& sides_of, const auto& serves) {
     std::vector<StreamSides> sides;
     for (const FlightArc& arc : record.arcs)
-      if (logged && arc.rows() > 1) sides.push_back(sides_of(arc));
+      if (logged && arc.rows() > 1 && serves(arc)) sides.push_back(sides_of(arc));
     return offset_of(sides, record.interval, lag);
+  };
+  // What is held between its samples is late by half of the time between them.
+  const auto samples_thrust = [&](const FlightArc& arc) {
+    return sampled_in_every_row(arc, kForce + 2) &&
+           std::ranges::all_of(std::views::iota(0, record.layout.rotors),
+                               [&](int n) { return sampled_in_every_row(arc, kRotorChannel + n); });
   };
   const auto thrusts = [&](const FlightArc& arc) {
     return StreamSides{{integral(arc.t, specific_force(arc)[2])}, {sum_of_thrust(arc, record)}};
@@ -98,11 +114,11 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
   StreamOffsets found;
   in_parallel(3, [&](std::size_t which) {
     if (which == 0)
-      found.rates = offset_by(s.rates && s.attitude, kLag, turns);
+      found.rates = offset_by(s.rates && s.attitude, kLag, turns, any);
     else if (which == 1)
-      found.force = offset_by(s.force && s.velocity, kLag, forces);
+      found.force = offset_by(s.force && s.velocity, kLag, forces, any);
     else
-      found.speeds = offset_by(s.force && s.rotor_speeds, kLagOfSpeeds, thrusts);
+      found.speeds = offset_by(s.force && s.rotor_speeds, kLagOfSpeeds, thrusts, samples_thrust);
   });
   return found;
 }
@@ -145,17 +161,18 @@ void move_turns(const StreamOffsets& found, double interval, Moves& moves) {
 
 // What is then left between force and velocity. Where the force is in time with the rotor speeds that make
 // it, it is the motion that is late; with the attitude, unless that is in time with the rates.
-void move_force(const StreamOffsets& found, double interval, Moves& moves) {
+void move_force(const StreamOffsets& found, const FlightRecord& record, Moves& moves) {
   StreamOffset force = found.force;
   force.seconds += moves.path - moves.force;
-  if (!force.matters(interval, kShortestOfForce)) return;
-  const double half = 0.5 * std::abs(force.seconds);
-  if (std::abs(found.speeds.seconds) < half && kSureOfSpeeds * found.speeds.std < half) {
-    const bool attitude = !std::isfinite(found.rates.std);
+  if (!force.matters(record.interval, kShortestOfForce)) return;
+  const double half = 0.5 * std::abs(force.seconds), speeds = found.speeds.seconds + moves.force;
+  if (std::abs(speeds) < half && kSureOfSpeeds * found.speeds.std < half) {
+    const bool attitude = record.signals.attitude && !std::isfinite(found.rates.std);
+    const std::string path = record.signals.position ? "velocity and position show" : "velocity shows";
     moves.path -= force.seconds;
     if (attitude) moves.attitude -= force.seconds;
-    moves.say(attitude ? "attitude, velocity and position show" : "velocity and position show",
-              "the specific force and the rotor speeds", -force.seconds, force.std);
+    moves.say((attitude ? "attitude, " : "the ") + path, "the specific force and the rotor speeds",
+              -force.seconds, force.std);
   } else {
     moves.force += force.seconds;
     moves.say("the specific force shows", "the velocity", force.seconds, force.std);
@@ -177,7 +194,7 @@ std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<con
   const StreamOffsets found = stream_offsets(record, gravity);
   Moves moves;
   move_turns(found, record.interval, moves);
-  move_force(found, record.interval, moves);
+  move_force(found, record, moves);
   move_speeds(found, record.interval, moves);
   if (!moves.any()) return {};
   warnings.insert(warnings.end(), moves.said.begin(), moves.said.end());
@@ -188,7 +205,7 @@ std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<con
       for (auto& column : columns) read_later(log.t, column, seconds);
     };
     earlier(log.w_B, moves.rates), earlier(log.f_B, moves.force);
-    if (moves.attitude != 0) read_attitude_later(log, moves.attitude);
+    if (moves.attitude != 0 && log.has_attitude()) read_attitude_later(log, moves.attitude);
     earlier(log.v_W, moves.path), earlier(log.x_W, moves.path);
     earlier(log.Omega, moves.speeds);
   }

@@ -16,10 +16,11 @@ struct StreamOffsets {
 };
 StreamOffsets stream_offsets(const FlightRecord& record, double gravity);
 
-/// The logs with their streams at one time: rates and specific force that are late as by a filter are moved
-/// to the attitude, or else attitude, velocity and position to the rates, then the specific force to them
-/// and rotor speeds that are late to that, where an offset matters; each move is a warning `stream_offset`.
-/// Empty where nothing has to be moved.
+/// The logs with their streams at one time, where an offset matters; each move is a warning `stream_offset`.
+/// Rates and specific force that are late as by a filter, or against rotor speeds too, are moved to the
+/// attitude, or else attitude, velocity and position to the rates. What is then left between force and
+/// velocity moves the force, or the path where rotor speeds say that the force is in time; rotor speeds that
+/// are late to the force move last. Empty where nothing has to be moved.
 std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
                                        double gravity, std::vector<Warning>& warnings);
 

@@ -76,7 +76,7 @@ double power_of_km(const std::string& name) {
   return name == kRotor ? 1 : 0;
 }
 
-bool may_be_nothing(const FittedFlight& flight, const std::string& name) {
+bool may_be_nothing(const FittedFlight& flight, const std::string& name, double deviations) {
   const Theta& theta = *flight.theta;
   const VectorXd& u = flight.fit.u;
   VectorXd relative = VectorXd::Zero(u.size());
@@ -85,7 +85,7 @@ bool may_be_nothing(const FittedFlight& flight, const std::string& name) {
     if (c.name == name) relative[i] = theta.slope(u, i) / (theta.physical(u, i) - c.start);
     if (c.index == param::km) relative[i] = power_of_km(name) * theta.slope(u, i) / theta.physical(u, i);
   }
-  return !(kByChance * kByChance * relative.dot(flight.fit.covariance * relative) < 1);
+  return !(deviations * deviations * relative.dot(flight.fit.covariance * relative) < 1);
 }
 
 void warn_of(const std::vector<std::string>& found, Result& result) {
@@ -175,9 +175,10 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
     one.theta = std::move(theta);
     one.fit = fit_flight(record, *one.theta, fit_options);
   };
+  bool asked_at_once = false;
   if (is_in(watched, kRotor) && asks_at_once(constants, vehicle, record)) try {
       fit(with({kRotor}));
-      found = {kRotor};
+      found = {kRotor}, asked_at_once = true;
     } catch (const DataError&) {  // nothing flies with it
     }
   if (found.empty()) fit(theta_of(std::move(constants)));
@@ -217,8 +218,10 @@ FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p,
   };
   // Of what was found, while something else was still missing perhaps; it is asked no more.
   const auto drop_one = [&] {
-    const auto name =
-        std::ranges::find_if(found, [&](const std::string& of) { return may_be_nothing(one, of); });
+    const auto name = std::ranges::find_if(found, [&](const std::string& of) {
+      const bool unasked = asked_at_once && of == kRotor;
+      return may_be_nothing(one, of, unasked ? std::sqrt(kBeyondDoubtOfYaw) : kByChance);
+    });
     if (name == found.end()) return false;
     std::vector<std::string> less = found;
     std::erase(less, *name), std::erase(watched, *name);

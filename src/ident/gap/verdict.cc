@@ -181,7 +181,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
   if (std::isfinite(gap.closed) && gap.closed < 0.8)
     out.sentence += gap.closed > 0
                         ? fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining)
-                        : " Held-out flight is not predicted better for it.";
+                        : " Held-out flight, where there is hardly a gap, is not predicted better for it.";
   return out;
 }
 
