@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "ident/core/format_number.h"
 #include "ident/core/parallel.h"
@@ -104,9 +103,9 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
   };
   // What is held between its samples is late by half of the time between them.
   const auto samples_thrust = [&](const FlightArc& arc) {
-    return sampled_in_every_row(arc, kForce + 2) &&
-           std::ranges::all_of(std::views::iota(0, record.layout.rotors),
-                               [&](int n) { return sampled_in_every_row(arc, kRotorChannel + n); });
+    bool all = sampled_in_every_row(arc, kForce + 2);
+    for (int n = 0; n < record.layout.rotors; ++n) all = all && sampled_in_every_row(arc, kRotorChannel + n);
+    return all;
   };
   const auto thrusts = [&](const FlightArc& arc) {
     return StreamSides{{integral(arc.t, specific_force(arc)[2])}, {sum_of_thrust(arc, record)}};
