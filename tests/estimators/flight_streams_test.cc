@@ -32,6 +32,27 @@ void delay(std::vector<double>& column, std::size_t rows) {
   for (std::size_t i = column.size(); i-- > 0;) column[i] = i >= rows ? column[i - rows] : kNaN;
 }
 
+struct Aligned {
+  std::vector<FlightLog> logs;
+  std::vector<Warning> warnings;
+};
+
+Aligned aligned(const Vehicle& vehicle, const FlightLog& log) {
+  const std::vector<FlightLog> logs{log};
+  Aligned out;
+  out.logs = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, out.warnings);
+  return out;
+}
+
+/// A flight in which these streams are `rows` late.
+FlightLog late_by(std::size_t rows, const Vehicle& vehicle,
+                  std::initializer_list<std::array<std::vector<double>, 3> FlightLog::*> streams) {
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (const auto stream : streams)
+    for (auto& column : log.*stream) delay(column, rows);
+  return log;
+}
+
 TEST(FlightStreams, StreamsAtOneTimeAreLeftAlone) {
   const std::array scenarios = {"mixed", "hover", "steps", "eight", "vertical", "yaw"};
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -160,19 +181,13 @@ TEST(FlightStreams, RotorSpeedsThatAreLateAreReadEarlier) {
 // did not say that it is the IMU.
 TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {
   const Vehicle vehicle = random_vehicle(5);
-  FlightLog log = simulated(vehicle, "mixed", 5);
-  for (auto* of : {&log.w_B, &log.f_B})
-    for (auto& column : *of) delay(column, 4);
+  FlightLog log = late_by(4, vehicle, {&FlightLog::w_B, &FlightLog::f_B});
   for (const bool with_speeds : {true, false}) {
     if (!with_speeds) log.Omega.clear();
-    const std::vector<FlightLog> logs{log};
-    std::vector<Warning> warnings;
-    const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+    const auto [moved, warnings] = aligned(vehicle, log);
     ASSERT_FALSE(moved.empty());
-    const bool imu = moved[0].w_B[0][1000] != log.w_B[0][1000],
-               motion = moved[0].x_W[0][1000] != log.x_W[0][1000];
-    EXPECT_EQ(imu, with_speeds) << warnings[0].message;
-    EXPECT_EQ(motion, !with_speeds) << warnings[0].message;
+    EXPECT_EQ(moved[0].w_B[0][1000] != log.w_B[0][1000], with_speeds) << warnings[0].message;
+    EXPECT_EQ(moved[0].x_W[0][1000] != log.x_W[0][1000], !with_speeds) << warnings[0].message;
   }
 }
 
@@ -180,14 +195,10 @@ TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {
 // time.
 TEST(FlightStreams, RotorSpeedsTellWhetherThePathIsLate) {
   const Vehicle vehicle = random_vehicle(5);
-  FlightLog log = simulated(vehicle, "mixed", 5);
-  for (auto* of : {&log.v_W, &log.x_W})
-    for (auto& column : *of) delay(column, 8);
+  FlightLog log = late_by(8, vehicle, {&FlightLog::v_W, &FlightLog::x_W});
   for (const bool with_speeds : {true, false}) {
     if (!with_speeds) log.Omega.clear();
-    const std::vector<FlightLog> logs{log};
-    std::vector<Warning> warnings;
-    const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+    const auto [moved, warnings] = aligned(vehicle, log);
     ASSERT_FALSE(moved.empty());
     EXPECT_EQ(moved[0].f_B[2][1000] != log.f_B[2][1000], !with_speeds) << warnings[0].message;
     EXPECT_EQ(moved[0].v_W[2][1000] != log.v_W[2][1000], with_speeds) << warnings[0].message;
@@ -197,13 +208,9 @@ TEST(FlightStreams, RotorSpeedsTellWhetherThePathIsLate) {
 
 TEST(FlightStreams, APathIsLateInALogWithoutAttitude) {
   const Vehicle vehicle = random_vehicle(5);
-  FlightLog log = simulated(vehicle, "mixed", 5);
-  for (auto* of : {&log.v_W, &log.x_W})
-    for (auto& column : *of) delay(column, 8);
+  FlightLog log = late_by(8, vehicle, {&FlightLog::v_W, &FlightLog::x_W});
   for (auto& column : log.q_WB) column.clear();
-  const std::vector<FlightLog> logs{log};
-  std::vector<Warning> warnings;
-  const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+  const auto [moved, warnings] = aligned(vehicle, log);
   ASSERT_FALSE(moved.empty());
   EXPECT_NE(warnings[0].message.find("the velocity and position show"), std::string::npos)
       << warnings[0].message;
@@ -213,12 +220,8 @@ TEST(FlightStreams, APathIsLateInALogWithoutAttitude) {
 // Force and speeds are in time with each other once the IMU was moved: what is left is the path's.
 TEST(FlightStreams, ImuAndPathMayBeLateBoth) {
   const Vehicle vehicle = random_vehicle(5);
-  FlightLog log = simulated(vehicle, "mixed", 5);
-  for (auto* of : {&log.w_B, &log.f_B, &log.v_W, &log.x_W})
-    for (auto& column : *of) delay(column, 4);
-  const std::vector<FlightLog> logs{log};
-  std::vector<Warning> warnings;
-  const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+  const auto [moved, warnings] = aligned(
+      vehicle, late_by(4, vehicle, {&FlightLog::w_B, &FlightLog::f_B, &FlightLog::v_W, &FlightLog::x_W}));
   ASSERT_FALSE(moved.empty());
   const StreamOffsets left = stream_offsets(record_of(vehicle, moved), vehicle.g);
   for (const StreamOffset& one : {left.rates, left.force, left.speeds})

@@ -1,8 +1,7 @@
 // Changes of the rates over short windows of flight, and of what each rotor may have done to them.
 //
-// Over a window the change of the rates is J^-1 times the integral of the moment
-//   sum_n (r_n x kT a_n - s_n kQ a_n) Omega_n^2 - sigma s_n Jp a_n Omega_n'                    [flight model
-//   (4)]
+// Over a window the change of the rates is J^-1 times the integral of the moment, [flight model (4)]
+//   sum_n (r_n x kT a_n - s_n kQ a_n) Omega_n^2 - sigma s_n Jp a_n Omega_n'
 // whose scale does not matter to a correlation, only its pattern over the rotors.
 #pragma once
 

@@ -10,7 +10,6 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
-#include "ident/core/json_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
@@ -175,12 +174,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
   if (verdict.plain) trust_more(result.extra["candidates"], verdict.effects);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
-  result.extra["gap"] = {{"before", number_or_null(gap.before)},
-                         {"after", number_or_null(gap.after)},
-                         {"noise_floor", number_or_null(gap.floor)},
-                         {"closed", number_or_null(gap.closed)},
-                         {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}},
-                         {"horizons", as_json(held_out.horizons)}};
+  result.extra["gap"] = as_json(held_out);
   result.extra.update(search_details({search, before, rival, lines, vibration, jumps}));
   result.verdict = verdict.sentence;
   if (!wrong.empty()) distrust(result, wrong);

@@ -5,6 +5,17 @@
 #include "ident/gap/cause_alone.h"
 
 namespace ident {
+namespace {
+
+nlohmann::ordered_json as_json(const GapClosed& gap) {
+  return {{"before", number_or_null(gap.before)},
+          {"after", number_or_null(gap.after)},
+          {"noise_floor", number_or_null(gap.floor)},
+          {"closed", number_or_null(gap.closed)},
+          {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}}};
+}
+
+}  // namespace
 
 HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search) {
   HeldOutGap all{.record = held_out_of(record, kTrainingShare)};
@@ -42,18 +53,13 @@ HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise) {
   return {all.record, all.stated, all.found, noise, all.before.back(), all.after.back()};
 }
 
-nlohmann::ordered_json as_json(const std::vector<GapClosed>& horizons) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  const PredictionOptions windows;
-  for (std::size_t h = 0; h < horizons.size(); ++h) {
-    const GapClosed& one = horizons[h];
-    out.push_back({{"horizon", windows.horizons[h]},
-                   {"before", number_or_null(one.before)},
-                   {"after", number_or_null(one.after)},
-                   {"noise_floor", number_or_null(one.floor)},
-                   {"closed", number_or_null(one.closed)},
-                   {"closed_ci95", {number_or_null(one.ci95[0]), number_or_null(one.ci95[1])}}});
+nlohmann::ordered_json as_json(const HeldOutGap& all) {
+  nlohmann::ordered_json out = as_json(all.gap), horizons = nlohmann::ordered_json::array();
+  for (std::size_t h = 0; h < all.horizons.size(); ++h) {
+    horizons.push_back({{"horizon", all.windows.horizons[h]}});
+    horizons.back().update(as_json(all.horizons[h]));
   }
+  out["horizons"] = horizons;
   return out;
 }
 

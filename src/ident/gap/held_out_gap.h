@@ -29,7 +29,7 @@ PredictionOptions without_floors(PredictionOptions windows);
 /// For pictures and signatures.
 HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise);
 
-/// As `gap.horizons` of a result, whose horizons are those of PredictionOptions.
-nlohmann::ordered_json as_json(const std::vector<GapClosed>& horizons);
+/// As `gap` of a result, with its `horizons`.
+nlohmann::ordered_json as_json(const HeldOutGap& all);
 
 }  // namespace ident
