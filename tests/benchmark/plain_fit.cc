@@ -59,7 +59,7 @@ struct Segment {
 
   template <class T>
   FlightState<T> start(const T* s) const {
-    const FlightState<double>& x = arc->start[begin];
+    const FlightState<double> x = arc->start(begin);
     FlightState<T> state;
     const Vec4<T> half(T(1.0), 0.5 * s[3], 0.5 * s[4], 0.5 * s[5]);
     const T length = sqrt(T(1.0) + half[1] * half[1] + half[2] * half[2] + half[3] * half[3]);

@@ -204,7 +204,7 @@ TEST(SpeedSmoother, ErrorsOfTheInputActAsTheModelSays) {
   FlightArc& arc = record.arcs.at(0);
   const EffectSet<double> effects(p, active_effects(p));
   const auto accelerations_with = [&](const FlightInputs& inputs) {
-    FlightState<double> x = arc.start[100];
+    FlightState<double> x = arc.start(100);
     const BodyRate<double> rate =
         Flight<double, EffectSet<double>>(vehicle, p, effects, inputs).rate(x, arc.t[100]);
     AccelerationVariance a;

@@ -225,6 +225,21 @@ TEST(AgainstNaming, ACauseOfWhichOneChannelAsksForAnotherSizeIsNotNamed) {
   EXPECT_EQ(c.judged().status, "identified");
 }
 
+TEST(AgainstNaming, AirHasItsFinerPointsButNoDragOfTwoSizes) {
+  Case c({"rotor_drag"}, {"rotor_drag"});
+  c.weighs({0}, 1.0);
+  c.search.asked = {{{"level", 0.3, 0.13, 0.7}, {"roll", -0.45, 0.05, 0.1}}};
+  EXPECT_EQ(c.judged().status, "identified");
+  c.search.asked[0][1].change = -0.6;
+  const Judged quadratic = c.judged();
+  EXPECT_EQ(quadratic.status, "unknown");
+  EXPECT_NE(quadratic.sentence.find("roll asks"), std::string::npos) << quadratic.sentence;
+  for (const char* loose : {"ground_effect", "battery_sag", "thrust_curve"}) {
+    c.search.best.adopted[0].name = c.search.problem.candidates[0].name = loose;
+    EXPECT_EQ(c.judged().status, "identified") << loose;
+  }
+}
+
 TEST(AgainstNaming, AWeakCauseBesideWhatSwingsOrStrikesIsNotNamed) {
   Case c({"thrust_curve"}, {"thrust_curve"});
   c.weighs({0}, 1.0);

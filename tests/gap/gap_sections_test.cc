@@ -121,5 +121,23 @@ TEST(GapReport, SaysThatNothingStandsOutWhereTheModelIsRight) {
   for (const Plot& plot : sections.back().plots) EXPECT_EQ(plot.series.size(), 1U) << plot.title;
 }
 
+TEST(GapReport, TellsOfNoPredictionWhereNoFlightWasHeldOutAndCallsCausesNearest) {
+  const ResidualWrench before = wrench(6);
+  Json short_log = found("unknown", {}, before);
+  short_log["verdict"]["confused_with"] = {"rotor_drag"};
+  short_log["gap"]["horizons"] = {{{"horizon", 0.5}, {"before", nullptr}, {"after", nullptr}}};
+  const std::vector<Section> sections = gap_sections(short_log, before, before);
+  EXPECT_EQ(sections[0].title, "Which causes");
+  EXPECT_EQ(sections[0].tables.at(0).title, "The nearest causes, which are not named");
+  EXPECT_EQ(sections[0].tables.at(0).rows.at(0).at(0), "rotor_drag");
+  short_log["gap"]["horizons"].push_back({{"horizon", 0.1},
+                                          {"before", 3.0},
+                                          {"after", 1.1},
+                                          {"noise_floor", 1.0},
+                                          {"closed", 0.9},
+                                          {"closed_ci95", {0.8, 1.0}}});
+  EXPECT_EQ(gap_sections(short_log, before, before)[0].tables.at(0).rows.size(), 1U);
+}
+
 }  // namespace
 }  // namespace ident

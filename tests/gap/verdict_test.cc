@@ -104,6 +104,21 @@ TEST(Verdict, AShiftedCentreOfGravityMayBeALightPayloadThoughThatIsLessProbable)
   EXPECT_EQ(c.judged().status, "identified");
 }
 
+TEST(Verdict, WithoutFlightToTryThemOnNoCauseIsNamed) {
+  Case c({"rotor_drag"}, {"rotor_drag"});
+  c.weighs({0}, 1.0);
+  c.gap = {};
+  const Judged nearest = c.judged();
+  EXPECT_EQ(nearest.status, "unknown");
+  EXPECT_TRUE(nearest.refused);
+  EXPECT_EQ(nearest.confused_with, Names{"rotor_drag"});
+  EXPECT_NE(nearest.sentence.find("too short"), std::string::npos) << nearest.sentence;
+  Case none({"rotor_drag"}, {});
+  none.gap = {};
+  EXPECT_EQ(none.judged().status, "none");
+  EXPECT_NE(none.judged().sentence.find("too short"), std::string::npos) << none.judged().sentence;
+}
+
 TEST(Verdict, MoreThanThreeNamesAreNoAnswer) {
   Case c({"rotor_drag", "parasitic_drag", "blade_flapping", "wind"}, {"rotor_drag"});
   c.weighs({0}, 0.4);

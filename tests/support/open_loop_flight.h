@@ -69,7 +69,7 @@ struct Setting {
     t.gyro_bias = theta.gyro_bias(at, 0);
     t.thetas = theta.size(), t.begin = 10, t.end = 120, t.rows = arc.rows();
     t.t = arc.t.data(), t.y = arc.y.data(), t.q = arc.q.data(), t.weight = weight.data();
-    t.x0 = arc.start[10];
+    t.x0 = arc.start(10);
     t.x0.body.w_B[0] += 0.01;
     return t;
   }

@@ -62,7 +62,7 @@ AccelerationVariance slope_over_mode(const FlightRecord& record, const FlightArc
 }
 
 Eigen::Matrix3d axes_in(const FlightArc& arc, std::size_t row, GustAxes axes) {
-  return axes == GustAxes::world ? rotation(arc.start[row].body.q_WB) : Eigen::Matrix3d::Identity();
+  return axes == GustAxes::world ? rotation(arc.body[row].q_WB) : Eigen::Matrix3d::Identity();
 }
 
 }  // namespace

@@ -21,29 +21,29 @@ Track3 turn_of_attitude(const FlightArc& arc) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   return tracks(arc, [&](std::size_t i) {
     if (i == 0) return sum;
-    const Vec4<double> d = quaternion_product(conjugate(arc.start[i - 1].body.q_WB), arc.start[i].body.q_WB);
+    const Vec4<double> d = quaternion_product(conjugate(arc.body[i - 1].q_WB), arc.body[i].q_WB);
     sum += (d[0] < 0 ? -2.0 : 2.0) * d.tail<3>();
     return sum;
   });
 }
 
 Track3 turn_of_rates(const FlightArc& arc) {
-  return integrals(arc, tracks(arc, [&](std::size_t i) { return arc.start[i].body.w_B; }));
+  return integrals(arc, tracks(arc, [&](std::size_t i) { return arc.body[i].w_B; }));
 }
 
 Track3 velocity_W(const FlightArc& arc) {
-  return tracks(arc, [&](std::size_t i) { return arc.start[i].body.v_W; });
+  return tracks(arc, [&](std::size_t i) { return arc.body[i].v_W; });
 }
 
 Track3 position_W(const FlightArc& arc) {
-  return tracks(arc, [&](std::size_t i) { return arc.start[i].body.x_W; });
+  return tracks(arc, [&](std::size_t i) { return arc.body[i].x_W; });
 }
 
 Track3 velocity_of_force(const FlightArc& arc, double gravity) {
   const Track3 f = specific_force(arc);
   return integrals(
       arc, tracks(arc, [&](std::size_t i) {
-        return Eigen::Vector3d(rotation(arc.start[i].body.q_WB) * Eigen::Vector3d(f[0][i], f[1][i], f[2][i]) +
+        return Eigen::Vector3d(rotation(arc.body[i].q_WB) * Eigen::Vector3d(f[0][i], f[1][i], f[2][i]) +
                                gravity * Eigen::Vector3d::UnitZ());
       }));
 }

@@ -50,4 +50,7 @@ struct GapClosed {
 };
 GapClosed gap_closed(const std::vector<PredictionWindow>& before, const std::vector<PredictionWindow>& after);
 
+/// Whether flight was held out on which a model could be tried.
+inline bool was_tried(const GapClosed& gap) { return std::isfinite(gap.before); }
+
 }  // namespace ident

@@ -32,9 +32,13 @@ struct FlightArc {
   std::shared_ptr<const FlightInputs> inputs;       ///< of the whole log; pieces of an arc share them
   std::shared_ptr<const FlightInputs> rougher;      ///< where speeds are the input: the same, smoothed less
   std::shared_ptr<const SpeedErrors> speed_errors;  ///< where speeds are the input and have noise
-  std::vector<FlightState<double>> start;           ///< state of each row as read off the measurements
+  std::vector<BodyState<double>> body;              ///< [row] as read off the measurements
+  std::vector<MotorState<double>> motors;           ///< [row][rotor] measured, or simulated from the commands
 
   std::size_t rows() const { return t.size(); }
+  std::size_t rotors() const { return motors.size() / rows(); }
+  /// To start from at a row; nothing acts from outside.
+  FlightState<double> start(std::size_t row) const;
   /// The rows [begin, end) as an arc of their own.
   FlightArc piece(std::size_t begin, std::size_t end) const;
 };

@@ -13,6 +13,14 @@ FlightRecord without_arcs(const FlightRecord& record) {
           record.warnings, record.p};
 }
 
+FlightState<double> FlightArc::start(std::size_t row) const {
+  FlightState<double> out{};
+  out.body = body[row];
+  const std::size_t each = rotors();
+  for (std::size_t n = 0; n < each; ++n) out.motors[n] = motors[row * each + n];
+  return out;
+}
+
 FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
   FlightArc out;
   out.log = log;
@@ -20,7 +28,8 @@ FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
     return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
                                      v.begin() + static_cast<std::ptrdiff_t>(end * width));
   };
-  out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.start = range(start, 1);
+  out.t = range(t, 1), out.y = range(y, kChannels), out.q = range(q, 4), out.body = range(body, 1),
+  out.motors = range(motors, rotors());
   out.inputs = inputs, out.rougher = rougher, out.speed_errors = speed_errors;
   return out;
 }

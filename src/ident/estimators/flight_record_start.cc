@@ -95,7 +95,7 @@ void simulate_motors(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
       const double y = arc.y[i * kChannels + kRotorChannel + n];
       if (std::isfinite(y) && y > 0) motors[n].Omega += 0.5 * (y - motors[n].Omega);
     }
-    arc.start[i].motors = motors;
+    std::copy_n(motors.begin(), rotors, arc.motors.begin() + static_cast<std::ptrdiff_t>(i * rotors));
     if (i + 1 < arc.rows()) flight.advance(motors, arc.t[i], arc.t[i + 1] - arc.t[i]);
   }
 }
@@ -129,7 +129,7 @@ BodyColumns body_columns(const FlightArc& arc, const std::array<double, kChannel
 void set_body(FlightArc& arc, const BodyColumns& of, std::size_t i) {
   const auto& [w, v, x, q] = of;
   const std::size_t rows = arc.rows();
-  BodyState<double>& b = arc.start[i].body;
+  BodyState<double>& b = arc.body[i];
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     b.w_B[at] = filled(w[k], i, 0.0);
@@ -182,7 +182,7 @@ void set_noise_and_motor_start(FlightRecord& record, std::span<const double> p) 
   in_parallel(arcs + kChannels, [&](std::size_t i) {
     if (i < arcs) {
       FlightArc& arc = record.arcs[i];
-      arc.start.resize(arc.rows());
+      arc.body.resize(arc.rows()), arc.motors.resize(arc.rows() * record.vehicle->rotors.size());
       if (arc.inputs->commanded()) simulate_motors(arc, *record.vehicle, p);
       return;
     }

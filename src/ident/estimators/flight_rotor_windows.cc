@@ -38,8 +38,7 @@ Streams rotor_streams(const FlightArc& arc, const Vehicle& vehicle, std::span<co
   Streams out;
   Track rate(arc.rows());
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < arc.rows(); ++i)
-      rate[i] = arc.start[i].body.w_B[static_cast<Eigen::Index>(k)];
+    for (std::size_t i = 0; i < arc.rows(); ++i) rate[i] = arc.body[i].w_B[static_cast<Eigen::Index>(k)];
     out.rates[k] = rate;
   }
   for (const Track& speed : rotor_speeds(arc, vehicle, p, measured)) {

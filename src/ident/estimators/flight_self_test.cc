@@ -44,12 +44,10 @@ void test_excitation(const RotorAgreement& rotors, std::vector<Warning>& finding
 /// Thrust of the rotors as stated over the weight, in the mean of the flight.
 double thrust_over_weight(const FlightRecord& record, double gravity, std::span<const double> p) {
   double sum = 0, rows = 0;
-  for (const FlightArc& arc : record.arcs)
-    for (const FlightState<double>& x : arc.start) {
-      for (int n = 0; n < record.layout.rotors; ++n)
-        sum += std::pow(x.motors[static_cast<std::size_t>(n)].Omega, 2);
-      rows += 1;
-    }
+  for (const FlightArc& arc : record.arcs) {
+    for (const MotorState<double>& motor : arc.motors) sum += std::pow(motor.Omega, 2);
+    rows += static_cast<double>(arc.rows());
+  }
   return p[param::kT] * sum / (rows * p[param::m] * gravity);
 }
 

@@ -88,7 +88,7 @@ void in_body_axes(const FlightArc& arc, const ChangeWindows& windows, double gra
     const std::size_t from = windows.margin + j * windows.stride, to = from + windows.lag;
     Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
     for (std::size_t i = from + windows.width / 2; i < to + windows.width / 2; ++i)
-      R += rotation(arc.start[i].body.q_WB) / static_cast<double>(windows.lag);
+      R += rotation(arc.body[i].q_WB) / static_cast<double>(windows.lag);
     const Eigen::Vector3d f =
         R.transpose() * (at(seen, j) - gravity * (arc.t[to] - arc.t[from]) * Eigen::Vector3d::UnitZ());
     for (std::size_t k = 0; k < 3; ++k) seen[k][j] = f[static_cast<Eigen::Index>(k)];
@@ -186,7 +186,7 @@ void test_gravity(const FlightRecord& record, double gravity, std::vector<Warnin
     const Track3 one = specific_force(arc);
     append(f, one);
     for (std::size_t i = 0; i < arc.rows() && record.signals.attitude; ++i)
-      down.push_back((rotation(arc.start[i].body.q_WB) * at(one, i))[2]);
+      down.push_back((rotation(arc.body[i].q_WB) * at(one, i))[2]);
   }
   constexpr Names names{"ax", "ay", "az"};
   std::array<double, 3> middle{median(f[0]), median(f[1]), median(f[2])};

@@ -57,7 +57,7 @@ FlightSmoother::FlightSmoother(const FlightRecord& record, const Theta& theta, N
       while (end + 1 < arc.rows() && arc.t[end] - arc.t[begin] < chunk_seconds - 1e-9) ++end;
       if (arc.rows() - 1 - end < (end - begin) / 2) end = arc.rows() - 1;  // no tiny rest
       places_.push_back({static_cast<int>(a), begin, end, end + 1 < arc.rows()});
-      states_.push_back(arc.start[begin]);
+      states_.push_back(arc.start(begin));
       begin = end;
     }
     if (places_.size() > first) chains_.push_back(chain_of(first, places_.size()));

@@ -169,10 +169,10 @@ class FlightSmoother {
   static Chain chain_of(std::size_t begin, std::size_t end);
 
   // x_k moves by -(f_k + B_k du) - G_k dx_next, with the chunk next to it towards where the ends meet. L L'
-  // is the information on x_k from its own end of the chain, shared unknowns held. Rows are padded but for L;
-  // Gt is G transposed, and B is what [G | B f] holds from column padded(n) on.
+  // is the information on x_k from its own end of the chain, shared unknowns held. Gt is G transposed, its
+  // rows padded.
   struct Elimination {
-    std::vector<chunk::RowMatrix> GBf, Gt, L;
+    std::vector<chunk::RowMatrix> B, Gt, L;
     std::vector<Eigen::VectorXd> f;
     bool held = false;  // shared unknowns held: no B
   };

@@ -75,11 +75,10 @@ VectorXd FlightSmoother::shared_optimum() const {
 
 // Steps of the states for that of the shared unknowns, by an elimination which may have held it.
 std::vector<VectorXd> FlightSmoother::state_steps(const Elimination& el, const VectorXd& du) const {
-  const Index from = padded(record_->layout.size);
   std::vector<VectorXd> dx(places_.size());
   outward([&](std::size_t k, std::optional<std::size_t> next) {
     dx[k] = -el.f[k];
-    if (!el.held) dx[k].noalias() -= el.GBf[k].middleCols(from, du.size()) * du;
+    if (!el.held) dx[k].noalias() -= el.B[k] * du;
     if (next) dx[k].noalias() -= el.Gt[k].leftCols(dx[k].size()).transpose() * dx[*next];
   });
   return dx;
@@ -92,7 +91,7 @@ std::vector<chunk::RowMatrix> FlightSmoother::state_slopes() const {
   std::vector<chunk::RowMatrix> dX(places_.size());
   outward([&](std::size_t k, std::optional<std::size_t> next) {
     dX[k] = chunk::RowMatrix::Zero(n, m);
-    dX[k].leftCols(shared()) = -accepted().GBf[k].middleCols(padded(n), shared());
+    dX[k].leftCols(shared()) = -accepted().B[k];
     if (next)
       dense.add_products(rows_of(dX[k]), rows_in(accepted().Gt[k]), n, rows_in(dX[*next]), m, n, -1.0);
   });

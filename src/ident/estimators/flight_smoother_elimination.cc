@@ -39,6 +39,7 @@ struct FlightSmoother::Sweep {
         next(own),
         WE(own),
         U(Matrix::Zero(n, from)),
+        GBf(n, from + shared),
         sum(Matrix::Zero(m, shared)) {}
 
   auto D() { return own.leftCols(n); }
@@ -51,6 +52,7 @@ struct FlightSmoother::Sweep {
   Matrix own, next;  // [D | B f] of this chunk, and what it passes to the next one
   Matrix WE;         // weighted slope of the link, with the weighted defect
   Matrix U;          // over the state that is next in the sweep
+  Matrix GBf;        // [U | B f], then L^-1 of it, then D^-1 of it
   Matrix sum;        // [S g], of S what is right of its diagonal
   double cost = 0.0, fall = 0.0, log_det = 0.0;
 };
@@ -140,8 +142,7 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
   const int n = at.n, m = at.m, from = at.from, right = from + at.shared;
   Elimination& el = last();
   const DenseRows& dense = dense_rows();
-  chunk::RowMatrix& GBf = el.GBf[k];  // [U | B f], then L^-1 of it, then D^-1 of it
-  GBf.resize(n, right);
+  Sweep::Matrix& GBf = at.GBf;
   const auto solved = [&](int column) { return rows_in(GBf, column); };
   Eigen::LLT<Sweep::Matrix> llt(at.D());
   if (llt.info() != Eigen::Success) {
@@ -164,6 +165,7 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
     el.Gt[k].setZero(n, from);
     el.Gt[k].leftCols(n) = GBf.leftCols(n).transpose();
   }
+  el.B[k] = GBf.middleCols(from, m);
   el.f[k] = GBf.col(from + m);
 }
 
@@ -221,7 +223,7 @@ void FlightSmoother::eliminate(const VectorXd* held_step) {
   if (last_at_ == accepted_at_) last_at_ = 1 - accepted_at_;
   Elimination& el = last();
   const std::size_t K = places_.size();
-  el.GBf.resize(K), el.Gt.resize(K), el.f.resize(K), el.L.resize(K);
+  el.B.resize(K), el.Gt.resize(K), el.f.resize(K), el.L.resize(K);
   el.held = held;
   if (covariances_.of == last_at_) covariances_.of.reset();
   std::vector<std::array<std::unique_ptr<Sweep>, 2>> ends(chains_.size());

@@ -40,8 +40,8 @@ constexpr double kOfItsSpeed = 0.5;
 
 double usual_speed(const FlightArc& arc, std::size_t rotor) {
   double sum = 0;
-  for (const FlightState<double>& x : arc.start) sum += x.motors[rotor].Omega;
-  return sum / static_cast<double>(arc.start.size());
+  for (std::size_t i = 0; i < arc.rows(); ++i) sum += arc.motors[i * arc.rotors() + rotor].Omega;
+  return sum / static_cast<double>(arc.rows());
 }
 
 std::array<bool, kChannels> measured_in(const FlightArc& arc) {

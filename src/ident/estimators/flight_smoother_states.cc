@@ -29,7 +29,7 @@ void FlightSmoother::start_from(const FlightSmoother& other) {
     evaluate_chunk(one, result);
     const bool flew = result.x_end.body.w_B.allFinite() && result.x_end.body.v_W.allFinite();
     states_[k] =
-        flew ? result.x_end : record_->arcs[static_cast<std::size_t>(places_[k].arc)].start[places_[k].begin];
+        flew ? result.x_end : record_->arcs[static_cast<std::size_t>(places_[k].arc)].start(places_[k].begin);
   });
   set_axes();
 }

@@ -82,10 +82,10 @@ Stray stray_of_velocity(const FlightArc& arc, double gravity) {
   Eigen::Matrix<double, 3, 10> slope_before = turned;
   Vector3d pull_before = stray;
   for (std::size_t i = 0; i < arc.rows(); ++i) {
-    const Eigen::Matrix3d R_WB = rotation(arc.start[i].body.q_WB);
+    const Eigen::Matrix3d R_WB = rotation(arc.body[i].q_WB);
     const Vector3d f = force[i], pull = R_WB * f + Vector3d(0, 0, gravity);
     Eigen::Matrix<double, 3, 10> slope;
-    slope << R_WB, R_WB * cross_matrix(f), R_WB * f.asDiagonal(), R_WB * cross(arc.start[i].body.w_B, f);
+    slope << R_WB, R_WB * cross_matrix(f), R_WB * f.asDiagonal(), R_WB * cross(arc.body[i].w_B, f);
     if (i > 0) {
       const double h = 0.5 * (arc.t[i] - arc.t[i - 1]);
       stray -= h * (pull + pull_before), turned += h * (slope + slope_before);
@@ -93,7 +93,7 @@ Stray stray_of_velocity(const FlightArc& arc, double gravity) {
     pull_before = pull, slope_before = slope;
     if (!group_at(arc, i, kVelocity).allFinite()) continue;
     Stray::Slopes G(3, out.nuisances);
-    G << turned, R_WB * cross_matrix(arc.start[i].body.w_B), pull,
+    G << turned, R_WB * cross_matrix(arc.body[i].w_B), pull,
         (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
     out.add(arc.t[i], group_at(arc, i, kVelocity) + stray, G);
   }
@@ -110,7 +110,7 @@ Stray stray_of_position(const FlightArc& arc) {
     if (i > 0) path += 0.5 * (arc.t[i] - arc.t[i - 1]) * (velocity[i] + velocity[i - 1]);
     if (!group_at(arc, i, kPosition).allFinite()) continue;
     Stray::Slopes G(3, out.nuisances);
-    G << velocity[i], rotation(arc.start[i].body.q_WB), (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
+    G << velocity[i], rotation(arc.body[i].q_WB), (arc.t[i] - arc.t[0]) * Eigen::Matrix3d::Identity();
     out.add(arc.t[i], group_at(arc, i, kPosition) - path, G);
   }
   return out;

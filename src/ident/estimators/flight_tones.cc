@@ -33,7 +33,7 @@ std::vector<std::vector<double>> speeds_of(const FlightArc& arc, int rotors) {
       out[n] = arc.inputs->Omega[n];
     } else {
       out[n].resize(arc.rows());
-      for (std::size_t i = 0; i < arc.rows(); ++i) out[n][i] = arc.start[i].motors[n].Omega;
+      for (std::size_t i = 0; i < arc.rows(); ++i) out[n][i] = arc.motors[i * arc.rotors() + n].Omega;
     }
   }
   return out;

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 
 #include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_parameters.h"
 #include "ident/gap/further.h"
 #include "ident/gap/impossible_size.h"
+#include "ident/gap/one_size.h"
 
 namespace ident {
 namespace {
@@ -36,11 +36,6 @@ constexpr double kRivalShareBefore = 0.025, kRivalShareBeforeAlone = 0.06;
 // The same of what any cause explains alone: a fiftieth of its size, for rounded commands and smoothed
 // states. In 1700 blind runs right names of exact form left at most 2.5e-4 of that, wrong 6.9e-4 and more.
 constexpr double kRivalShareAlone = 4e-4;
-// Scatter of a value over parts of the flight, in units of the usual one, that a constant does not have; and
-// the share of itself by which it then changes. Motors are what they are only nearly.
-constexpr double kChanges = 3.5;
-constexpr double kChangesBy = 0.1;
-constexpr double kMotorChangesBy = 0.5;
 // A bench is wrong in one thing or two. Where more of its values have to be, another one stands behind them.
 constexpr std::ptrdiff_t kMostWrong = 2;
 // Standard deviations of a payload's mass from none below which only its moment was seen, unless a shifted
@@ -51,11 +46,6 @@ constexpr double kNoShift = 0.01;
 constexpr double kContradicts = 5.0;
 // And as many of the bench's own, which a flight that tells little need not reach.
 constexpr double kOff = 2.0;
-// What the channels ask of a cause's size, in deviations: sum of the squares that no true cause came near;
-// and by what share of itself one of them has to want it changed, by so many deviations.
-constexpr double kAtOdds = 40.0;
-constexpr double kAtOddsBy = 0.25;
-constexpr double kAsksFor = 3.5;
 // A cause that gains less is not told from what else strikes, or swings: a line explains more than most
 // causes do, and 850 flights without what makes one showed two. Jumps in one log that are more than chance.
 constexpr double kWeak = 100.0, kWeakBesideLine = 1000.0;
@@ -72,49 +62,6 @@ bool may_be_one_payload(const SearchResult& search) {
   return !is_candidate(search, "payload") &&
          (std::ranges::count_if(found, moves_mass) >= 2 ||
           std::ranges::any_of(found, [](const Candidate& c) { return c.name == "cg_offset"; }));
-}
-
-bool is_one_of(const Candidate& cause, std::initializer_list<const char*> names) {
-  return std::ranges::find(names, cause.name) != names.end();
-}
-
-// What motors do follows its equation only nearly; what air, ground and battery do, less than that.
-bool is_of_motors(const Candidate& cause) {
-  return is_one_of(
-      cause, {"motor_delay", "motor_asymmetry", "parameter:omega_m", "parameter:zeta_m", "parameter:km"});
-}
-bool is_of_drive(const std::string& cause) { return cause == "battery_sag" || cause == "thrust_curve"; }
-bool is_loose(const Candidate& cause) {
-  const EffectEntry* effect = find_effect(cause.name);
-  return is_of_drive(cause.name) || (effect && (effect->info.touches & (kTouchFlow | kTouchHeight)) != 0);
-}
-
-// The cause found whose value changes from one part of the flight to the next though it should not: another
-// one acts there in its place.
-const Candidate* changing(const SearchResult& search) {
-  const double most = kChanges * std::max(search.usual_scatter(), 1.0);
-  for (const Candidate& c : search.best.adopted) {
-    const double by = is_of_motors(c) ? kMotorChangesBy : kChangesBy;
-    if (!is_loose(c) && search.scatter_of(c) > most && search.change_of(c) > by) return &c;
-  }
-  return nullptr;
-}
-
-// The cause found of which one channel asks for another size than the others do: another one acts there.
-const Candidate* at_odds(const SearchResult& search, std::string& part) {
-  for (std::size_t i = 0; i < search.asked.size(); ++i) {
-    const Candidate& cause = search.best.adopted[i];
-    if (is_loose(cause)) continue;
-    double odds = 0, most = 0;
-    for (const Asked& a : search.asked[i]) {
-      if (a.weight < kHasASay) continue;
-      const double asks = a.std > 0 ? std::abs(a.change) / a.std : 0.0;
-      odds += asks * asks;
-      if (std::abs(a.change) > kAtOddsBy && asks > std::max(most, kAsksFor)) most = asks, part = a.part;
-    }
-    if (odds > kAtOdds && most > 0) return &cause;
-  }
-  return nullptr;
 }
 
 // The cause found that explains little where something swings or strikes beside it.

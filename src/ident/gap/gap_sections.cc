@@ -53,15 +53,19 @@ std::string how_far(const Json& gap, const std::string& causes) {
                             percent(gap["closed_ci95"][0]), percent(gap["closed_ci95"][1]));
 }
 
+// Whether held-out flight was long enough for that horizon.
+bool predicted(const Json& horizon) { return std::isfinite(number(horizon["before"])); }
+
 Table horizon_table(const Json& gap) {
   Table table{.title = "By how far ahead",
               .columns = {"horizon [s]", "as given", "left", "noise floor", "closed [%]", "95 % interval"}};
   if (!gap.contains("horizons")) return table;
   for (const Json& h : gap["horizons"])
-    table.rows.push_back(
-        {number_text(h["horizon"]), number_text(h["before"]), number_text(h["after"]),
-         number_text(h["noise_floor"]), percent(h["closed"]),
-         fmt::format("[{}, {}]", percent(h["closed_ci95"][0]), percent(h["closed_ci95"][1]))});
+    if (predicted(h))
+      table.rows.push_back(
+          {number_text(h["horizon"]), number_text(h["before"]), number_text(h["after"]),
+           number_text(h["noise_floor"]), percent(h["closed"]),
+           fmt::format("[{}, {}]", percent(h["closed_ci95"][0]), percent(h["closed_ci95"][1]))});
   return table;
 }
 
@@ -110,7 +114,9 @@ Table by_channel_table(const Json& found) {
 
 Section which_section(const Json& found) {
   Section section{.title = "Which causes"};
-  Table table{.title = "The causes named", .columns = {"cause", "", "what is known"}};
+  const bool named = !found["verdict"]["effects"].empty();
+  Table table{.title = named ? "The causes named" : "The nearest causes, which are not named",
+              .columns = {"cause", "", "what is known"}};
   for (const char* list : {"effects", "confused_with"})
     for (const std::string& name : words(found["verdict"][list])) add_cause(table, found, name);
   if (!table.rows.empty()) section.tables.push_back(std::move(table));
@@ -236,7 +242,8 @@ std::vector<Section> gap_sections(const Json& found, const ResidualWrench& befor
   const std::string causes = fmt::format("{}", fmt::join(causes_of(found), " and "));
   std::vector<Section> sections;
   const Json& gap = found["gap"];
-  if (!gap.contains("horizons") || !gap["horizons"].empty()) {  // empty: nothing can be simulated
+  // None: nothing can be simulated, or no flight was left to try it on.
+  if (!gap.contains("horizons") || std::ranges::any_of(gap["horizons"], predicted)) {
     sections.push_back(how_section(found, causes));
     std::ranges::copy(evidence.held_out, std::back_inserter(sections.front().plots));
   }

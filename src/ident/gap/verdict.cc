@@ -109,79 +109,114 @@ std::vector<std::string> in_their_place(const SearchResult& search, const std::v
   return others;
 }
 
-Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& rival,
-                 const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
-                 const std::vector<Parameter>& fitted) {
-  Judged out{.status = "unknown"};
-  if (!search.ran_away.empty()) {
-    out.confused_with = search.ran_away;
-    out.sentence =
-        fmt::format("A gap is there that looks like {}, but no full model with that flies as these logs do.",
-                    fmt::join(search.ran_away, " or "));
-    return out;
-  }
-  out.effects = probable_names(search, fitted);
-  if (out.effects.empty()) {
-    out = nothing_found(gap, rival, lines, jumps, fitted);
-    if (out.status == "unknown") out.confused_with = likely(search);
-    return out;
-  }
-  if (std::isfinite(gap.closed)) out.remaining = std::max(0.0, 1 - gap.closed);
-  if (const std::string why = against_naming(search, gap, rival, lines, jumps, fitted); !why.empty()) {
-    out.sentence =
-        fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
-                    fmt::join(out.effects, " with "), why);
-    out.confused_with = std::exchange(out.effects, {});
-    out.refused = true;
-    return out;
-  }
+// Causes found that are not named, for the reason that the sentence gives.
+Judged refusal(std::string sentence, std::vector<std::string> nearest) {
+  return {.status = "unknown",
+          .sentence = std::move(sentence),
+          .confused_with = std::move(nearest),
+          .refused = true};
+}
+
+// What else could stand in the place of the names found.
+std::vector<std::string> rivals_of(const std::vector<std::string>& names, const SearchResult& search,
+                                   const std::vector<Parameter>& fitted) {
   double own = 0;
-  std::vector<std::string> others = in_their_place(search, out.effects, own);
+  std::vector<std::string> others = in_their_place(search, names, own);
   // What a cause that is sure leaves to others is not told, but for a payload: too light to be weighed it is
   // a shifted centre of gravity, and only its price tells it from one.
-  const bool shifted = std::ranges::find(out.effects, "cg_offset") != out.effects.end();
+  const bool shifted = std::ranges::find(names, "cg_offset") != names.end();
   if (own >= kSure) std::erase_if(others, [&](const std::string& n) { return !shifted || n != "payload"; });
   if (weightless_payload(search, fitted) && std::ranges::find(others, "cg_offset") == others.end())
     others.emplace_back("cg_offset");
-  const std::string found = fmt::format("{}", fmt::join(out.effects, " and "));
-  const std::vector<std::string> effects_found = out.effects;
-  std::vector<std::string> open = out.effects;
+  return others;
+}
+
+// The names found, alone or beside those that would do as well.
+Judged named_among(const std::vector<std::string>& names, const std::vector<std::string>& others,
+                   const SearchResult& search) {
+  const std::string found = fmt::format("{}", fmt::join(names, " and "));
+  std::vector<std::string> open = names;
   std::erase_if(open, [&](const std::string& n) { return search.probability_of(n) > kLeftOpen; });
-  if (of_vehicle(out.effects) > kMostNames) {
-    out.sentence = fmt::format(
-        "A gap is there that only {} together explain: so many would fit almost anything, and each needs a "
-        "bench test of its own.",
-        found);
-    out.confused_with = std::exchange(out.effects, {});
-    out.refused = true;
-  } else if (others.empty()) {
-    out.status = "identified";
-    out.sentence = fmt::format("The gap is explained by {}.", found);
-  } else if (std::max<std::ptrdiff_t>(of_vehicle(open), 1) + of_vehicle(others) > kMostNames) {
-    out.sentence = fmt::format(
-        "A gap is there of which these logs do not tell the cause: {} explain it, but {} would about as "
-        "well.",
-        found, fmt::join(others, " or "));
-    out.confused_with = std::exchange(out.effects, {});
-  } else {
-    out.status = "ambiguous";
-    const bool part = !open.empty() && open.size() < out.effects.size();
-    out.sentence = fmt::format("The gap is explained by {}, but {}{} would explain it about as well.", found,
-                               fmt::join(others, " or "),
-                               part ? fmt::format(" in place of {}", fmt::join(open, " and ")) : "");
+  if (of_vehicle(names) > kMostNames) {
+    Judged out = refusal(
+        fmt::format("A gap is there that only {} together explain: so many would fit almost anything, and "
+                    "each needs a bench test of its own.",
+                    found),
+        names);
+    out.confused_with.insert(out.confused_with.end(), others.begin(), others.end());
+    return out;
   }
-  out.confused_with.insert(out.confused_with.end(), others.begin(), others.end());
+  if (others.empty())
+    return {.status = "identified",
+            .sentence = fmt::format("The gap is explained by {}.", found),
+            .effects = names};
+  if (std::max<std::ptrdiff_t>(of_vehicle(open), 1) + of_vehicle(others) > kMostNames) {
+    Judged out{.status = "unknown",
+               .sentence = fmt::format("A gap is there of which these logs do not tell the cause: {} explain "
+                                       "it, but {} would about as well.",
+                                       found, fmt::join(others, " or ")),
+               .confused_with = names};
+    out.confused_with.insert(out.confused_with.end(), others.begin(), others.end());
+    return out;
+  }
+  const bool part = !open.empty() && open.size() < names.size();
+  return {.status = "ambiguous",
+          .sentence = fmt::format("The gap is explained by {}, but {}{} would explain it about as well.",
+                                  found, fmt::join(others, " or "),
+                                  part ? fmt::format(" in place of {}", fmt::join(open, " and ")) : ""),
+          .effects = names,
+          .confused_with = others};
+}
+
+// What the model found holds beside the names, and what of the gap remains.
+std::string said_beside(const std::vector<std::string>& names, const SearchResult& search,
+                        const GapClosed& gap, double remaining) {
+  std::string out;
   std::vector<std::string> beside = names_of(search.best.adopted);
-  std::erase_if(beside,
-                [&](const auto& n) { return std::ranges::find(effects_found, n) != effects_found.end(); });
+  std::erase_if(beside, [&](const auto& n) { return std::ranges::find(names, n) != names.end(); });
   if (!beside.empty())
-    out.sentence +=
+    out +=
         fmt::format(" The model found holds {} as well, which is hardly there and mends the form of what is.",
                     fmt::join(beside, " and "));
   if (std::isfinite(gap.closed) && gap.closed < 0.8)
-    out.sentence += gap.closed > 0
-                        ? fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * out.remaining)
-                        : " Held-out flight, where there is hardly a gap, is not predicted better for it.";
+    out += gap.closed > 0 ? fmt::format(" About {:.0f} % of the gap remains unexplained.", 100 * remaining)
+                          : " Held-out flight, where there is hardly a gap, is not predicted better for it.";
+  return out;
+}
+
+Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& rival,
+                 const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
+                 const std::vector<Parameter>& fitted) {
+  if (!search.ran_away.empty())
+    return {.status = "unknown",
+            .sentence = fmt::format(
+                "A gap is there that looks like {}, but no full model with that flies as these logs do.",
+                fmt::join(search.ran_away, " or ")),
+            .confused_with = search.ran_away};
+  const std::vector<std::string> names = probable_names(search, fitted);
+  if (names.empty()) {
+    Judged out = nothing_found(gap, rival, lines, jumps, fitted);
+    if (out.status == "unknown") out.confused_with = likely(search);
+    return out;
+  }
+  if (!was_tried(gap))
+    return refusal(
+        fmt::format("{} would explain these logs, but they are too short for flight to be held out "
+                    "on which that could be tried: fly for longer, 40 s or more.",
+                    fmt::join(names, " with ")),
+        names);
+  const double remaining = std::isfinite(gap.closed) ? std::max(0.0, 1 - gap.closed) : kNaN;
+  Judged out;
+  if (const std::string why = against_naming(search, gap, rival, lines, jumps, fitted); !why.empty()) {
+    out =
+        refusal(fmt::format("A gap is there that the catalogue does not explain. The nearest is {}, but {}.",
+                            fmt::join(names, " with "), why),
+                names);
+  } else {
+    out = named_among(names, rivals_of(names, search, fitted), search);
+    out.sentence += said_beside(names, search, gap, remaining);
+  }
+  out.remaining = remaining;
   return out;
 }
 
