@@ -93,6 +93,55 @@ void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehic
                           format_number(highest, 4)));
 }
 
+// What a search leaves to be judged; `before` and `after` are of the base model and of the one found.
+struct Findings {
+  ResidualWrench before, after;
+  Rival rival;
+  HeldOutGap held_out;
+  std::vector<SpectralLine> lines;
+  std::vector<Burst> jumps;
+};
+
+Findings findings_of(const FlightRecord& record, const SearchResult& search) {
+  const auto wrench = [&](const FittedModel& model) {
+    return residual_wrench(record, *model.theta, model.fit, search.form.noise);
+  };
+  ResidualWrench before = wrench(search.base);
+  ResidualWrench after = search.best.adopted.empty() ? before : wrench(search.best);
+  return {std::move(before),
+          std::move(after),
+          generic_rival(record, *search.best.theta, search.best.fit, search.form.noise),
+          held_out_gap(record, search),
+          spectral_lines(record, search.best.fit),
+          bursts(record, search.best.fit)};
+}
+
+// The constants of the model found. What hover held is known no better than before.
+void state_constants(Result& result, const SearchResult& search, const Vehicle& vehicle,
+                     const std::vector<double>& p, bool hover) {
+  FlightFit body = search.best.fit;
+  body.smoother.reset(), body.u = nearest_body(*search.best.theta, body);
+  result.parameters = flight_parameters(*search.best.theta, body, "gap");
+  warn_of_inertia(result, *search.best.theta, search.best.fit);
+  if (hover) {
+    const std::vector<FreeConstant> known = free_constants(vehicle, p);
+    std::vector<FreeConstant> held = known;
+    as_before_flight(result.parameters, known, hold_for_hover(held));
+  }
+  result.prior_correlation =
+      vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
+}
+
+// Where speeds are the input: causes that hang on how these were smoothed, or are smaller than their errors.
+Judged doubted_for_input(Judged verdict, const FlightRecord& record, const SearchResult& search,
+                         const HeldOutGap& held_out, const std::vector<std::string>& loose) {
+  const std::vector<std::string> small = below_their_limit(search, least_size(record));
+  const double without = small.empty() ? kNaN
+                                       : refitted_error(search.base, record, held_out.record,
+                                                        search.form.noise, without_floors(held_out.windows));
+  return with_noisy_input(std::move(verdict), loose, small, held_out.gap, without);
+}
+
 // A diagnosis of a flight that was entered, with what `begun` says of it. None where a first look would be
 // doubtful and a closer one may tell more, and where a closer one ends with a model that cannot be flown.
 std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
@@ -100,7 +149,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   auto [p, record, tested, vibration] = std::move(entry);
   Diagnosis out{std::move(begun), {}};
   Result& result = out.result;
-  const bool noisy_input = has_noisy_input(record), hover = is_hover(tested);
+  const bool hover = is_hover(tested);
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
                                      look == Look::closer, options.progress};
   SearchResult search = search_causes(record, vehicle, p, search_options);
@@ -114,44 +163,17 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
       result.warnings.push_back(w), tested.push_back(w);
   if (options.progress) options.progress(0.9, "held-out flight");
 
-  const ResidualWrench before =
-      residual_wrench(record, *search.base.theta, search.base.fit, search.form.noise);
-  const ResidualWrench after =
-      search.best.adopted.empty()
-          ? before
-          : residual_wrench(record, *search.best.theta, search.best.fit, search.form.noise);
-  const Rival rival = generic_rival(record, *search.best.theta, search.best.fit, search.form.noise);
-
-  const HeldOutGap held_out = held_out_gap(record, search);
-  const GapClosed& gap = held_out.gap;
-  const Theta& best = *search.best.theta;
+  const Findings seen = findings_of(record, search);
+  const GapClosed& gap = seen.held_out.gap;
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
-  const std::vector<SpectralLine> lines = spectral_lines(record, search.best.fit);
-  const std::vector<Burst> jumps = bursts(record, search.best.fit);
-  FlightFit body = search.best.fit;
-  body.smoother.reset(), body.u = nearest_body(best, body);
-  result.parameters = flight_parameters(best, body, "gap");
-  warn_of_inertia(result, best, search.best.fit);
-  if (hover) {  // what was held is known no better than before
-    const std::vector<FreeConstant> known = free_constants(vehicle, p);
-    std::vector<FreeConstant> held = known;
-    as_before_flight(result.parameters, known, hold_for_hover(held));
-  }
-  result.prior_correlation =
-      vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
-  Judged verdict = judge(search, gap, rival, lines, jumps, result.parameters);
+  state_constants(result, search, vehicle, p, hover);
+  Judged verdict = judge(search, gap, seen.rival, seen.lines, seen.jumps, result.parameters);
   doubt_negative_dead_time(result);
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
   if (hover) verdict = in_hover(std::move(verdict));
-  if (noisy_input) {
-    const std::vector<std::string> small = below_their_limit(search, least_size(record));
-    const double without = small.empty()
-                               ? kNaN
-                               : refitted_error(search.base, record, held_out.record, search.form.noise,
-                                                without_floors(held_out.windows));
-    verdict = with_noisy_input(std::move(verdict), loose, small, gap, without);
-  }
+  if (has_noisy_input(record))
+    verdict = doubted_for_input(std::move(verdict), record, search, seen.held_out, loose);
   const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
   if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
@@ -162,26 +184,24 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   }
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   warn_of_battery(result, verdict, vehicle, logs);
-  result.extra["verdict"] = {{"status", verdict.status},
-                             {"effects", verdict.effects},
-                             {"confused_with", verdict.confused_with},
-                             {"sentence", verdict.sentence}};
-  if (std::isfinite(verdict.remaining)) result.extra["verdict"]["remaining"] = verdict.remaining;
-  result.extra["where"] = where_json(before);
-  result.extra["candidates"] =
-      causes_tried(search, [&](const Candidate& cause) { return closed_alone(held_out, search, cause); });
-  if (verdict.refused) doubt_refused(result.parameters, search.best.adopted);
-  if (verdict.refused) trust_less(result.extra["candidates"], verdict.effects);
-  if (verdict.plain) trust_more(result.extra["candidates"], verdict.effects);
-  result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
-  result.extra["gap"] = as_json(held_out);
-  result.extra.update(search_details({search, before, rival, lines, vibration, jumps}));
+
   result.verdict = verdict.sentence;
+  result.extra["verdict"] = to_json(verdict);
+  result.extra["where"] = where_json(seen.before);
+  Json tried = causes_tried(
+      search, [&](const Candidate& cause) { return closed_alone(seen.held_out, search, cause); });
+  if (verdict.refused) doubt_refused(result.parameters, search.best.adopted);
+  if (verdict.refused) trust_less(tried, verdict.effects);
+  if (verdict.plain) trust_more(tried, verdict.effects);
+  result.extra["candidates"] = std::move(tried);
+  result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
+  result.extra["gap"] = as_json(seen.held_out);
+  result.extra.update(search_details({search, seen.before, seen.rival, seen.lines, vibration, seen.jumps}));
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =
-      evidence_of(record, search, as_flight(held_out, search.form.noise), options.shown);
+      evidence_of(record, search, as_flight(seen.held_out, search.form.noise), options.shown);
   result.extra["signatures"] = to_json(evidence.signatures);
-  result.sections = gap_sections(result.extra, before, after, evidence);
+  result.sections = gap_sections(result.extra, seen.before, seen.after, evidence);
   result.sections.push_back(data_health(record, logs, search.best.fit.noise, vibration));
   const bool none = verdict.status == "none";  // and nothing of a cause is written
   out.adopted = hover ? vehicle : adopted_vehicle(vehicle, none ? search.base : search.best);
@@ -200,10 +220,7 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   if (only_trim(record.signals)) {
     out.adopted = diagnose_trim(result, record, p, options.exclude);
     if (const std::string wrong = disqualified(tested); !wrong.empty()) {
-      result.extra["verdict"] = {{"status", "unknown"},
-                                 {"effects", Json::array()},
-                                 {"confused_with", Json::array()},
-                                 {"sentence", wrong}};
+      result.extra["verdict"] = to_json(Judged{.status = "unknown", .sentence = wrong});
       result.verdict = wrong;
       distrust(result, wrong);
     }

@@ -16,6 +16,7 @@
 #include "ident/gap/causes_tried.h"
 #include "ident/gap/further.h"
 #include "ident/gap/gap_sections.h"
+#include "ident/gap/verdict.h"
 
 namespace ident {
 namespace {
@@ -120,13 +121,8 @@ std::string limit_of(const Json& candidates) {
   return {};
 }
 
-struct Said {
-  std::string status, sentence;
-  std::vector<std::string> effects, confused_with;
-};
-
-Said judged(const SearchResult& search, double chance, const std::string& limit) {
-  Said out;
+Judged judged(const SearchResult& search, double chance, const std::string& limit) {
+  Judged out;
   if (search.best.adopted.empty()) {
     out.status = chance < kChance ? "unknown" : "none";
     out.sentence = chance < kChance
@@ -245,7 +241,7 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
   }
   const ResidualWrench before = wrench_of(record, trim, base.trim), after = wrench_of(record, trim, left);
   const Json candidates = causes_tried(search, [](const Candidate&) { return GapClosed{}; });
-  const Said verdict = judged(search, by_chance(trim, left), limit_of(candidates));
+  const Judged verdict = judged(search, by_chance(trim, left), limit_of(candidates));
   result.warnings.push_back(without_turning());
   if (!states_rotor_ratios(vehicle))
     result.warn(
@@ -253,10 +249,7 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
         "how equal the rotors of this vehicle are when nothing is wrong is not stated: 10 % is assumed. "
         "Refine with flights of the vehicle as it should be, and diagnose against that");
   result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
-  result.extra["verdict"] = {{"status", verdict.status},
-                             {"effects", verdict.effects},
-                             {"confused_with", verdict.confused_with},
-                             {"sentence", verdict.sentence}};
+  result.extra["verdict"] = to_json(verdict);
   result.extra["where"] = where_json(before);
   result.extra["candidates"] = candidates;
   result.extra["not_tried"] = causes_not_tried(search, vehicle, exclude);

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "ident/core/format_number.h"
 #include "ident/gap/against_naming.h"
 #include "ident/gap/further.h"
 #include "ident/gap/nothing_found.h"
+#include "ident/gap/verdict_names.h"
 #include "ident/gap/wrong_lag.h"
 
 namespace ident {
@@ -19,10 +19,6 @@ namespace {
 
 // A gap of this share of the noise floor is none, and no cause of it is named: the floor is known to a tenth.
 constexpr double kBelowFloor = 0.9;
-
-// A cause is identified with this probability, and one that stands in its place is told of from that on.
-constexpr double kSure = 0.9;
-constexpr double kTold = 0.05;
 // An answer of more names than this, those of how the sensor is mounted apart, is none, nor one that leaves
 // open which of more it is.
 constexpr std::ptrdiff_t kMostNames = 3;
@@ -33,80 +29,8 @@ constexpr double kSlowestLag = 0.2;
 constexpr double kLeastDamping = 0.2;
 constexpr double kMostRemains = 0.5;
 
-// The effect `wind` brings its drag along as a nuisance when the vehicle file has none.
-std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
-  std::vector<std::string> names;
-  const bool wind = std::ranges::any_of(adopted, [](const Candidate& c) { return c.name == "wind"; });
-  for (const Candidate& c : adopted) {
-    if (wind && (c.name == "rotor_drag" || c.name == "parasitic_drag")) continue;
-    if (std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
-  }
-  return names;
-}
-
-// A thrust curve that bends by less than thrust stands scatter, and that the flight hardly shows.
-bool bends_next_to_nothing(const SearchResult& search, const std::vector<Parameter>& fitted) {
-  constexpr double kOfAStand = 1.0 / 60, kPlain = 200.0;
-  const auto of_curve = std::ranges::find(search.alone, "thrust_curve", &SearchStep::name);
-  if (of_curve == search.alone.end() || of_curve->gain > kPlain) return false;
-  return std::ranges::all_of(fitted, [&](const Parameter& p) {
-    return !p.name.starts_with("thrust_curve.") || std::abs(p.value) < kOfAStand;
-  });
-}
-
-// Without those that were taken up and are hardly there once all are weighed by the scatter of the strongest:
-// they mend its form. A battery that thrust itself shows is weighed otherwise.
-std::vector<std::string> probable_names(const SearchResult& search, const std::vector<Parameter>& fitted) {
-  constexpr double kHardlyThere = 0.1, kThere = 0.5;
-  std::vector<std::string> names = names_of(search.best.adopted);
-  const auto there = [&](const std::string& n) { return search.probability_of(n) > kThere; };
-  if (std::ranges::any_of(names, there))
-    std::erase_if(names, [&](const std::string& n) {
-      return search.probability_of(n) < kHardlyThere && !(n == "battery_sag" && search.thrust.plain());
-    });
-  if (names.size() > 1 && bends_next_to_nothing(search, fitted)) std::erase(names, "thrust_curve");
-  return names;
-}
-
 std::ptrdiff_t of_vehicle(const std::vector<std::string>& names) {
   return std::ranges::count_if(names, [](const std::string& n) { return !is_of_mounting(n); });
-}
-
-// Names that the flight leaves open where none of them could be tried.
-std::vector<std::string> likely(const SearchResult& search) {
-  std::vector<std::string> out;
-  for (const Candidate& c : search.problem.candidates)
-    if (search.probability_of(c.name) > kTold && std::ranges::find(out, c.name) == out.end())
-      out.push_back(c.name);
-  std::ranges::stable_sort(out, std::greater<>(), [&](const auto& n) { return search.probability_of(n); });
-  return out;
-}
-
-// Names of sets that explain the gap about as well and hold another cause than those found; `own` becomes the
-// probability of the sets that hold these. One with a further cause beside them is no rival, and what the
-// model holds in any case, as the drag by which wind acts, is none.
-std::vector<std::string> in_their_place(const SearchResult& search, const std::vector<std::string>& effects,
-                                        double& own) {
-  std::vector<std::string> others;
-  const std::set<std::string> named(effects.begin(), effects.end());
-  const auto held = [&](const std::string& n) {
-    return std::ranges::find(search.best.adopted, n, &Candidate::name) != search.best.adopted.end();
-  };
-  for (const WeighedSet& set : search.sets) {
-    std::vector<Candidate> members;
-    for (const int m : set.members) members.push_back(search.problem.candidates[static_cast<std::size_t>(m)]);
-    const std::vector<std::string> listed = names_of(members);
-    const std::set<std::string> names(listed.begin(), listed.end());
-    if (std::ranges::includes(names, named)) {
-      own += set.probability;
-    } else if (set.probability > kTold) {
-      const bool parts = std::ranges::all_of(names, held);  // drag alone, where it was wind with drag
-      for (const std::string& n : names)
-        if ((parts ? !named.contains(n) : !held(n)) && std::ranges::find(others, n) == others.end())
-          others.push_back(n);
-    }
-  }
-  return others;
 }
 
 // Causes found that are not named, for the reason that the sentence gives.
@@ -115,20 +39,6 @@ Judged refusal(std::string sentence, std::vector<std::string> nearest) {
           .sentence = std::move(sentence),
           .confused_with = std::move(nearest),
           .refused = true};
-}
-
-// What else could stand in the place of the names found.
-std::vector<std::string> rivals_of(const std::vector<std::string>& names, const SearchResult& search,
-                                   const std::vector<Parameter>& fitted) {
-  double own = 0;
-  std::vector<std::string> others = in_their_place(search, names, own);
-  // What a cause that is sure leaves to others is not told, but for a payload: too light to be weighed it is
-  // a shifted centre of gravity, and only its price tells it from one.
-  const bool shifted = std::ranges::find(names, "cg_offset") != names.end();
-  if (own >= kSure) std::erase_if(others, [&](const std::string& n) { return !shifted || n != "payload"; });
-  if (weightless_payload(search, fitted) && std::ranges::find(others, "cg_offset") == others.end())
-    others.emplace_back("cg_offset");
-  return others;
 }
 
 // The names found, alone or beside those that would do as well.
@@ -196,7 +106,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
   const std::vector<std::string> names = probable_names(search, fitted);
   if (names.empty()) {
     Judged out = nothing_found(gap, rival, lines, jumps, fitted);
-    if (out.status == "unknown") out.confused_with = likely(search);
+    if (out.status == "unknown") out.confused_with = likely_names(search);
     return out;
   }
   if (!was_tried(gap))
@@ -213,7 +123,7 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
                             fmt::join(names, " with "), why),
                 names);
   } else {
-    out = named_among(names, rivals_of(names, search, fitted), search);
+    out = named_among(names, names_in_place_of(names, search, fitted), search);
     out.sentence += said_beside(names, search, gap, remaining);
   }
   out.remaining = remaining;
@@ -291,6 +201,15 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
     out.sentence += cause.sentence + " ";
   }
   out.sentence += "With that alone the gap is not explained. " + rest;
+  return out;
+}
+
+nlohmann::ordered_json to_json(const Judged& verdict) {
+  nlohmann::ordered_json out = {{"status", verdict.status},
+                                {"effects", verdict.effects},
+                                {"confused_with", verdict.confused_with},
+                                {"sentence", verdict.sentence}};
+  if (std::isfinite(verdict.remaining)) out["remaining"] = verdict.remaining;
   return out;
 }
 

@@ -1,6 +1,7 @@
 // What is said of a gap: named, ambiguous, unknown or none.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,8 @@ struct Judged {
 Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted);
+
+/// As `verdict` of a result.
+nlohmann::ordered_json to_json(const Judged& verdict);
 
 }  // namespace ident
