@@ -6,49 +6,23 @@
 #include <optional>
 
 #include "ident/core/error.h"
+#include "ident/estimators/flight_contradiction.h"
 #include "ident/estimators/flight_fit_steps.h"
 #include "ident/estimators/flight_steady_push.h"
 
 namespace ident {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
 
 constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
-constexpr std::ptrdiff_t kFewBlocks = 8;    // do not tell by how much coloured residuals spread scores;
-constexpr double kUntold = 4.0;             // they count as that much then
 constexpr double kBeyondDoubt = 25.0;       // squared standard deviations, or fall of the cost
 constexpr double kBeyondDoubtOfYaw = 16.0;  // for Jp, which none of 56 flights without effect asks for then
 constexpr double kByChance = 2.0;           // standard deviations
-constexpr double kMatters = 1e-3;           // of the unit step: less is rounding
 const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kRotor = "Jp";
 // Effects that are the same.
 const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
-
-// By how much the logs contradict the watched constant `at`, in squared standard deviations.
-double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
-  // How far it moves when it is free, over the factor by which coloured residuals spread the scores it
-  // leaves.
-  PriorTerms prior = theta.prior(fit.u).loosened(at, 1.0);
-  prior.slope[at] = 0;
-  const Eigen::Index n = fit.u.size();
-  MatrixXd F = MatrixXd::Zero(n, n), H = prior.information();
-  VectorXd g = prior.gradient();
-  for (const ScoreBlock& block : fit.blocks) F += block.information, g += block.score;
-  H += F;
-  H.diagonal() *= 1 + 1e-12;  // what nothing tells
-  const MatrixXd covariance = inverse_of(H);
-  const VectorXd direction = covariance.col(at), step = -covariance * g;
-  if (!(std::abs(step[at]) > kMatters && direction[at] > 0)) return 0;
-  double spread = 0;
-  for (const ScoreBlock& block : fit.blocks)
-    spread += std::pow(direction.dot(block.score + block.information * step), 2);
-  const bool few = std::ssize(fit.blocks) < kFewBlocks;
-  const double stretch = few ? kUntold : std::max(spread / direction.dot(F * direction), 1.0);
-  return step[at] * step[at] / (direction[at] * stretch);
-}
 
 // The unknowns of one fit as those of another with the same logs; constants that are new there stand at 0.
 VectorXd carried(const FittedFlight& one, const Theta& to) {
@@ -153,105 +127,155 @@ std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit
   return found;
 }
 
-}  // namespace
+// A fit, and the watched constants that it had to free on the way.
+class WatchedFit {
+ public:
+  WatchedFit(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
+             const WatchOptions& options, Result& result)
+      : vehicle_(vehicle),
+        p_(p),
+        record_(record),
+        also_(options.also),
+        result_(result),
+        watched_(options.watched) {
+    fit_options_.progress = options.progress;
+    fit_options_.steps = Steps::longest;  // on the way to its exact end
+  }
 
-FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
-                           std::vector<FreeConstant> constants, const WatchOptions& options, Result& result) {
-  FlightFitOptions fit_options;
-  fit_options.progress = options.progress;
-  fit_options.steps = Steps::longest;  // on the way to its exact end
-  std::vector<std::string> watched = options.watched, found;
-  const auto theta_of = [&](std::vector<FreeConstant> of) {
-    watch(watched, of, vehicle, record, p);
-    return std::make_unique<Theta>(p, std::move(of), record.logs, record.signals.rates);
-  };
-  const auto with = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> also = options.also;
-    also.insert(also.end(), more.begin(), more.end());
-    return theta_of(free_constants(vehicle, p, also));
-  };
-  FittedFlight one;
-  const auto fit = [&](std::unique_ptr<Theta> theta) {
-    one.theta = std::move(theta);
-    one.fit = fit_flight(record, *one.theta, fit_options);
-  };
-  bool asked_at_once = false;
-  if (is_in(watched, kRotor) && asks_at_once(constants, vehicle, record)) try {
-      fit(with({kRotor}));
-      found = {kRotor}, asked_at_once = true;
-    } catch (const DataError&) {  // nothing flies with it
+  void begin(std::vector<FreeConstant> constants) {
+    if (is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_)) try {
+        fit(with({kRotor}));
+        found_ = {kRotor}, asked_at_once_ = true;
+        return;
+      } catch (const DataError&) {  // nothing flies with it
+      }
+    fit(theta_of(std::move(constants)));
+  }
+
+  // Frees or holds one more; whether there was anything to change.
+  bool step() {
+    if (const auto name = against(false)) {
+      free(*name);
+    } else if (is_in(watched_, kOffset) && watches(one_, kOffset) &&
+               steady_push(record_, one_.fit).matters(vehicle_.g)) {
+      try_offset();
+    } else if (const auto yaw = against(true)) {  // last: what is wrong with thrust bends yaw as well
+      free(*yaw);
+    } else {
+      return drop_one();
     }
-  if (found.empty()) fit(theta_of(std::move(constants)));
-  const auto refitted = [&](const std::vector<std::string>& more,
-                            bool from_here) -> std::optional<FittedFlight> {
+    return true;
+  }
+
+  FittedFlight end() {
+    warn_of(found_, result_);
+    return std::move(one_);
+  }
+
+ private:
+  std::unique_ptr<Theta> theta_of(std::vector<FreeConstant> of) const {
+    watch(watched_, of, vehicle_, record_, p_);
+    return std::make_unique<Theta>(p_, std::move(of), record_.logs, record_.signals.rates);
+  }
+
+  std::unique_ptr<Theta> with(const std::vector<std::string>& more) const {
+    std::vector<std::string> also = also_;
+    also.insert(also.end(), more.begin(), more.end());
+    return theta_of(free_constants(vehicle_, p_, also));
+  }
+
+  void fit(std::unique_ptr<Theta> theta) {
+    one_.theta = std::move(theta);
+    one_.fit = fit_flight(record_, *one_.theta, fit_options_);
+  }
+
+  std::optional<FittedFlight> refitted(const std::vector<std::string>& more, bool from_here) {
     FittedFlight other{with(more), {}};
-    fit_options.start = {}, fit_options.noise.reset();
+    fit_options_.start = {}, fit_options_.noise.reset();
     if (from_here) {
-      fit_options.start = carried(one, *other.theta), fit_options.noise = one.fit.noise;
-      fit_options.noise->axes = GustAxes::world;
+      fit_options_.start = carried(one_, *other.theta), fit_options_.noise = one_.fit.noise;
+      fit_options_.noise->axes = GustAxes::world;
     }
     try {
-      other.fit = fit_flight(record, *other.theta, fit_options);
+      other.fit = fit_flight(record_, *other.theta, fit_options_);
     } catch (const DataError&) {  // nothing flies with it
       return {};
     }
     return other;
-  };
-  const auto free = [&](const std::string& name) {
-    std::vector<std::string> more = found;
+  }
+
+  std::vector<std::string> found_and(const std::string& name) const {
+    std::vector<std::string> more = found_;
     more.push_back(name);
+    return more;
+  }
+
+  void free(const std::string& name) {
+    std::vector<std::string> more = found_and(name);
     auto other = refitted(more, true);
     if (!other) other = refitted(more, false);
     if (other) {
-      one = std::move(*other), found = std::move(more);
+      one_ = std::move(*other), found_ = std::move(more);
       return;
     }
-    std::erase(watched, name);
-    result.warn("contradicted", "the logs contradict " + name +
-                                    " as it is where nobody states it, but nothing flies with another one: "
-                                    "of what depends on it nothing certain is said");
-  };
-  const auto against = [&](bool of_yaw) {
-    std::vector<std::string> names = watched;
-    std::erase_if(names, [&](const std::string& name) { return (name == kRotor) != of_yaw; });
-    return contradicted(*one.theta, one.fit, names, of_yaw ? kBeyondDoubtOfYaw : kBeyondDoubt);
-  };
-  // Of what was found, while something else was still missing perhaps; it is asked no more.
-  const auto drop_one = [&] {
-    const auto name = std::ranges::find_if(found, [&](const std::string& of) {
-      const bool unasked = asked_at_once && of == kRotor;
-      return may_be_nothing(one, of, unasked ? std::sqrt(kBeyondDoubtOfYaw) : kByChance);
-    });
-    if (name == found.end()) return false;
-    std::vector<std::string> less = found;
-    std::erase(less, *name), std::erase(watched, *name);
-    auto other = refitted(less, true);
-    if (other) one = std::move(*other), found = std::move(less);
-    return other.has_value();
-  };
-  for (;;) {
-    if (const auto name = against(false)) {
-      free(*name);
-    } else if (is_in(watched, kOffset) && watches(one, kOffset) &&
-               steady_push(record, one.fit).matters(vehicle.g)) {
-      // What stays for the whole flight passes for a gust once noise is that strong: anew, for that noise
-      // would hide the offset again.
-      std::vector<std::string> more = found;
-      more.push_back(kOffset);
-      auto other = refitted(more, false);
-      if (other && other->fit.smoother->surprise() < one.fit.smoother->surprise() - kBeyondDoubt &&
-          !steady_push(record, other->fit).matters(vehicle.g))
-        one = std::move(*other), found = std::move(more);
-      else
-        std::erase(watched, kOffset);
-    } else if (const auto yaw = against(true)) {  // last: what is wrong with thrust bends yaw as well
-      free(*yaw);
-    } else if (!drop_one()) {
-      break;
-    }
+    std::erase(watched_, name);
+    result_.warn("contradicted", "the logs contradict " + name +
+                                     " as it is where nobody states it, but nothing flies with another one: "
+                                     "of what depends on it nothing certain is said");
   }
-  warn_of(found, result);
-  return one;
+
+  // What stays for the whole flight passes for a gust once noise is that strong: anew, for that noise would
+  // hide the offset again.
+  void try_offset() {
+    std::vector<std::string> more = found_and(kOffset);
+    auto other = refitted(more, false);
+    if (other && other->fit.smoother->surprise() < one_.fit.smoother->surprise() - kBeyondDoubt &&
+        !steady_push(record_, other->fit).matters(vehicle_.g))
+      one_ = std::move(*other), found_ = std::move(more);
+    else
+      std::erase(watched_, kOffset);
+  }
+
+  std::optional<std::string> against(bool of_yaw) const {
+    std::vector<std::string> names = watched_;
+    std::erase_if(names, [&](const std::string& name) { return (name == kRotor) != of_yaw; });
+    return contradicted(*one_.theta, one_.fit, names, of_yaw ? kBeyondDoubtOfYaw : kBeyondDoubt);
+  }
+
+  // Of what was found, while something else was still missing perhaps; it is asked no more.
+  bool drop_one() {
+    const auto name = std::ranges::find_if(found_, [&](const std::string& of) {
+      const bool unasked = asked_at_once_ && of == kRotor;
+      return may_be_nothing(one_, of, unasked ? std::sqrt(kBeyondDoubtOfYaw) : kByChance);
+    });
+    if (name == found_.end()) return false;
+    std::vector<std::string> less = found_;
+    std::erase(less, *name), std::erase(watched_, *name);
+    auto other = refitted(less, true);
+    if (other) one_ = std::move(*other), found_ = std::move(less);
+    return other.has_value();
+  }
+
+  const Vehicle& vehicle_;
+  const std::vector<double>& p_;
+  const FlightRecord& record_;
+  const std::vector<std::string>& also_;
+  Result& result_;
+  FlightFitOptions fit_options_;
+  std::vector<std::string> watched_, found_;
+  FittedFlight one_;
+  bool asked_at_once_ = false;
+};
+
+}  // namespace
+
+FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
+                           std::vector<FreeConstant> constants, const WatchOptions& options, Result& result) {
+  WatchedFit fit(vehicle, p, record, options, result);
+  fit.begin(std::move(constants));
+  while (fit.step()) {
+  }
+  return fit.end();
 }
 
 }  // namespace ident

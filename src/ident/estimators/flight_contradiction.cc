@@ -1,0 +1,37 @@
+// A score test by blocks.
+#include "ident/estimators/flight_contradiction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/estimators/flight_fit_steps.h"
+
+namespace ident {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
+  constexpr double kMatters = 1e-3;         // of the unit step: less is rounding
+  constexpr std::ptrdiff_t kFewBlocks = 8;  // do not tell by how much coloured residuals spread scores;
+  constexpr double kUntold = 4.0;           // they count as that much then
+  PriorTerms prior = theta.prior(fit.u).loosened(at, 1.0);
+  prior.slope[at] = 0;
+  const Eigen::Index n = fit.u.size();
+  MatrixXd F = MatrixXd::Zero(n, n), H = prior.information();
+  VectorXd g = prior.gradient();
+  for (const ScoreBlock& block : fit.blocks) F += block.information, g += block.score;
+  H += F;
+  H.diagonal() *= 1 + 1e-12;  // what nothing tells
+  const MatrixXd covariance = inverse_of(H);
+  const VectorXd direction = covariance.col(at), step = -covariance * g;
+  if (!(std::abs(step[at]) > kMatters && direction[at] > 0)) return 0;
+  double spread = 0;
+  for (const ScoreBlock& block : fit.blocks)
+    spread += std::pow(direction.dot(block.score + block.information * step), 2);
+  const bool few = std::ssize(fit.blocks) < kFewBlocks;
+  const double stretch = few ? kUntold : std::max(spread / direction.dot(F * direction), 1.0);
+  return step[at] * step[at] / (direction[at] * stretch);
+}
+
+}  // namespace ident
