@@ -2,6 +2,7 @@
 #include "ident/gap/candidates.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ident/estimators/flight_trim.h"
 
@@ -18,10 +19,135 @@ FreeConstant effect_constant(const std::string& name, const Vehicle& vehicle, co
   return c;
 }
 
+// A centre of gravity shifted along z alone turns the vehicle where something pushes from the side, as any
+// gust does that pushes above it: more than this share of a payload's reach is taken for that.
+constexpr double kHighest = 0.05;
+
+using Names = std::vector<std::string>;
+
+// Takes up the causes of a vehicle one after the other; what its file states is part of the model.
 class Builder {
  public:
-  Builder(const Vehicle& vehicle, const std::vector<double>& p, ExtendedProblem& problem)
-      : vehicle_(vehicle), p_(p), problem_(problem) {}
+  Builder(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,
+          const std::vector<FreeConstant>& base, const Names& exclude)
+      : vehicle_(vehicle), p_(p), signals_(signals), exclude_(exclude) {
+    problem_.constants = base;
+    problem_.base = static_cast<int>(base.size());
+  }
+
+  // That the value of base constant i is wrong.
+  void add_value(int i) {
+    const FreeConstant& c = problem_.constants[static_cast<std::size_t>(i)];
+    const bool rival_effect = c.index == param::Jp && vehicle_.signs == Signs::as_published;
+    if (c.prior_std && c.name.find('.') == std::string::npos && !rival_effect &&
+        wanted("parameter:" + c.name))
+      problem_.candidates.push_back({"parameter:" + c.name, {}, i, -1, false});
+    // A rotor whose thrust is known to some per cent may have lost more: then that is the cause.
+    if (c.prior_std && !c.adopted && is_rotor_ratio(c.name) && wanted("rotor_mismatch"))
+      problem_.candidates.push_back(
+          {"rotor_mismatch", {}, i, std::stoi(c.name.substr(kRotorRatio.size())) - 1, false});
+  }
+
+  void add_effect(const EffectEntry& e) {
+    const std::string name(e.info.name);
+    if (!wanted(name)) return;
+    if (e.id == EffectId::rotor_mismatch || e.id == EffectId::rotor_tilt)
+      add_at_rotors(e.id);
+    else if (states_effect(vehicle_, name) || !can_show(e))
+      return;
+    else if (e.id == EffectId::payload)
+      add_payload();
+    else if (e.id == EffectId::battery_sag)
+      add(name, {signals_.voltage ? "battery_sag.n" : "battery_sag.rate"}, true);
+    else if (e.id == EffectId::wind)
+      add(name, {"wind.north", "wind.east"});
+    else
+      add(name, all_of(e), e.parameters.size() == 1 && e.parameters[0].range == Range::positive);
+  }
+
+  ExtendedProblem end() {
+    for (Candidate& c : problem_.candidates)
+      for (const int i : c.directions)
+        if (problem_.constants[static_cast<std::size_t>(i)].name == "cg_offset.z")
+          c.height = i, c.highest = kHighest * payload_reach(vehicle_);
+    return std::move(problem_);
+  }
+
+ private:
+  bool wanted(const std::string& name) const { return std::ranges::find(exclude_, name) == exclude_.end(); }
+
+  bool is_base(int index) const {
+    const auto end = problem_.constants.begin() + problem_.base;
+    return std::find_if(problem_.constants.begin(), end,
+                        [&](const FreeConstant& c) { return c.index == index; }) != end;
+  }
+
+  double value(const char* name) const { return p_[static_cast<std::size_t>(find_parameter(name)->index)]; }
+
+  // Whether these signals can show it at all, and no constant of the vehicle is the same thing.
+  bool can_show(const EffectEntry& e) const {
+    if ((e.info.touches & kTouchFlow) != 0 && !signals_.velocity && !signals_.position) return false;
+    switch (e.id) {
+      case EffectId::battery_sag:
+      case EffectId::motor_asymmetry:
+        return signals_.commands;
+      case EffectId::motor_delay:
+        return signals_.commands && !(p_[param::dead_time] > 0);
+      case EffectId::wind:  // acts through drag
+        return value("rotor_drag.kd") != 0 || value("parasitic_drag.C") != 0;
+      case EffectId::ground_effect:
+        return signals_.position;
+      case EffectId::gyroscopic:
+        return !is_base(param::Jp) || vehicle_.signs == Signs::as_published;
+      case EffectId::imu_bias:
+      case EffectId::imu_lever_arm:
+        return signals_.force;
+      case EffectId::sensor_delay:
+        return signals_.rates || signals_.attitude;
+      default:
+        return true;
+    }
+  }
+
+  static Names all_of(const EffectEntry& e) {
+    Names names;
+    for (const EffectParameter& q : e.parameters)
+      names.push_back(std::string(e.info.name) + "." + std::string(q.name));
+    return names;
+  }
+
+  // One that is stated says nothing of the others.
+  void add_at_rotors(EffectId id) {
+    const auto unless_stated = [&](const Names& names, int rotor) {
+      const std::string& first = names.front();
+      if (!states_constant(vehicle_, first)) add(first.substr(0, first.find('.')), names, false, rotor);
+    };
+    if (id == EffectId::rotor_tilt) unless_stated({"rotor_tilt.x", "rotor_tilt.y"}, -1);
+    for (std::size_t k = 1; k <= vehicle_.rotors.size(); ++k) {
+      const std::string at = "@" + std::to_string(k);
+      const Names names = id == EffectId::rotor_mismatch ? Names{rotor_ratio(k)}
+                                                         : Names{"rotor_tilt.x" + at, "rotor_tilt.y" + at};
+      unless_stated(names, static_cast<int>(k) - 1);
+    }
+  }
+
+  // At zero mass its place has no effect: to first order a payload is mass and a shifted centre of gravity.
+  // One that was taken up is what it is.
+  void add_payload() {
+    if (is_base(find_parameter("payload.m")->index)) {
+      add("payload", {"payload.m", "payload.x", "payload.y", "payload.z"}, true);
+      return;
+    }
+    add("payload", {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true);
+    const double reach = payload_reach(vehicle_);
+    problem_.candidates.back().mass_for_shift = reach > 0 ? p_[param::m] / reach : 0.0;
+  }
+
+  void add(const std::string& name, const Names& parameters, bool positive = false, int rotor = -1) {
+    Candidate c{name, {}, -1, rotor, positive};
+    for (const std::string& q : parameters) c.directions.push_back(direction(q));
+    problem_.candidates.push_back(c);
+  }
 
   int direction(const std::string& name) {
     const auto at = std::ranges::find(problem_.constants, name, &FreeConstant::name);
@@ -30,22 +156,12 @@ class Builder {
     return static_cast<int>(problem_.constants.size()) - 1;
   }
 
-  void effect(const std::string& name, const std::vector<std::string>& parameters, bool positive = false,
-              int rotor = -1) {
-    Candidate c{name, {}, -1, rotor, positive};
-    for (const std::string& q : parameters) c.directions.push_back(direction(q));
-    problem_.candidates.push_back(c);
-  }
-
- private:
   const Vehicle& vehicle_;
   const std::vector<double>& p_;
-  ExtendedProblem& problem_;
+  const Signals& signals_;
+  const Names& exclude_;
+  ExtendedProblem problem_;
 };
-
-// A centre of gravity shifted along z alone turns the vehicle where something pushes from the side, as any
-// gust does that pushes above it: more than this share of a payload's reach is taken for that.
-constexpr double kHighest = 0.05;
 
 }  // namespace
 
@@ -87,88 +203,10 @@ bool states_constant(const Vehicle& vehicle, std::string_view name) {
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,
                                  const std::vector<FreeConstant>& base,
                                  const std::vector<std::string>& exclude) {
-  ExtendedProblem problem;
-  problem.constants = base;
-  problem.base = static_cast<int>(base.size());
-  const auto wanted = [&](const std::string& name) {
-    return std::ranges::find(exclude, name) == exclude.end();
-  };
-  Builder build(vehicle, p, problem);
-  const bool moves = signals.velocity || signals.position;
-  for (int i = 0; i < problem.base; ++i) {
-    const FreeConstant& c = base[static_cast<std::size_t>(i)];
-    const bool rival_effect = c.index == param::Jp && vehicle.signs == Signs::as_published;
-    if (c.prior_std && c.name.find('.') == std::string::npos && !rival_effect &&
-        wanted("parameter:" + c.name))
-      problem.candidates.push_back({"parameter:" + c.name, {}, i, -1, false});
-    // A rotor whose thrust is known to some per cent may have lost more: then that is the cause.
-    if (c.prior_std && !c.adopted && is_rotor_ratio(c.name) && wanted("rotor_mismatch"))
-      problem.candidates.push_back(
-          {"rotor_mismatch", {}, i, std::stoi(c.name.substr(kRotorRatio.size())) - 1, false});
-  }
-  for (const EffectEntry& e : catalogue()) {
-    const std::string name(e.info.name);
-    const auto is = [&](EffectId id) { return e.id == id; };
-    const bool at_rotors = is(EffectId::rotor_mismatch) || is(EffectId::rotor_tilt);
-    if (!wanted(name) || (!at_rotors && states_effect(vehicle, name))) continue;
-    const bool flow = (e.info.touches & kTouchFlow) != 0;
-    if (at_rotors) {  // one that is stated says nothing of the others
-      const auto unless_stated = [&](const std::vector<std::string>& names, int rotor) {
-        if (!states_constant(vehicle, names.front())) build.effect(name, names, false, rotor);
-      };
-      if (is(EffectId::rotor_tilt)) unless_stated({"rotor_tilt.x", "rotor_tilt.y"}, -1);
-      for (std::size_t k = 1; k <= vehicle.rotors.size(); ++k) {
-        const std::string at = "@" + std::to_string(k);
-        if (is(EffectId::rotor_mismatch))
-          unless_stated({rotor_ratio(k)}, static_cast<int>(k) - 1);
-        else
-          unless_stated({"rotor_tilt.x" + at, "rotor_tilt.y" + at}, static_cast<int>(k) - 1);
-      }
-    } else if (is(EffectId::battery_sag)) {
-      if (signals.commands)
-        build.effect(name, {signals.voltage ? "battery_sag.n" : "battery_sag.rate"}, true);
-    } else if (is(EffectId::motor_delay) || is(EffectId::motor_asymmetry)) {
-      const bool stated = is(EffectId::motor_delay) && p[param::dead_time] > 0;
-      if (signals.commands && !stated)
-        build.effect(name, {name + (is(EffectId::motor_delay) ? ".tau" : ".ratio")},
-                     is(EffectId::motor_delay));
-    } else if (is(EffectId::payload)) {
-      // At zero mass its place has no effect: to first order a payload is mass and a shifted centre of
-      // gravity. One that was taken up is what it is.
-      if (std::ranges::find(base, "payload.m", &FreeConstant::name) != base.end())
-        build.effect(name, {"payload.m", "payload.x", "payload.y", "payload.z"}, true);
-      else
-        build.effect(name, {"payload.m", "cg_offset.x", "cg_offset.y", "cg_offset.z"}, true),
-            problem.candidates.back().mass_for_shift =
-                payload_reach(vehicle) > 0 ? p[param::m] / payload_reach(vehicle) : 0.0;
-    } else if (is(EffectId::wind)) {
-      const bool drag = p[static_cast<std::size_t>(find_parameter("rotor_drag.kd")->index)] != 0 ||
-                        p[static_cast<std::size_t>(find_parameter("parasitic_drag.C")->index)] != 0;
-      if (moves && drag) build.effect(name, {"wind.north", "wind.east"});
-    } else if (is(EffectId::ground_effect)) {
-      if (signals.position) build.effect(name, {"ground_effect.radius_sq"}, true);
-    } else if (is(EffectId::gyroscopic)) {
-      const bool stated =
-          std::ranges::any_of(base, [](const FreeConstant& c) { return c.index == param::Jp; });
-      if (!stated || vehicle.signs == Signs::as_published) build.effect(name, {"gyroscopic.Jp"});
-    } else if (is(EffectId::imu_bias) || is(EffectId::imu_lever_arm)) {
-      if (!signals.force) continue;
-      std::vector<std::string> names;
-      for (const EffectParameter& q : e.parameters) names.push_back(name + "." + std::string(q.name));
-      build.effect(name, names);
-    } else {
-      if (flow && !moves) continue;
-      if (is(EffectId::sensor_delay) && !signals.rates && !signals.attitude) continue;
-      std::vector<std::string> names;
-      for (const EffectParameter& q : e.parameters) names.push_back(name + "." + std::string(q.name));
-      build.effect(name, names, e.parameters.size() == 1 && e.parameters[0].range == Range::positive);
-    }
-  }
-  for (Candidate& c : problem.candidates)
-    for (const int i : c.directions)
-      if (problem.constants[static_cast<std::size_t>(i)].name == "cg_offset.z")
-        c.height = i, c.highest = kHighest * payload_reach(vehicle);
-  return problem;
+  Builder build(vehicle, p, signals, base, exclude);
+  for (int i = 0; i < static_cast<int>(base.size()); ++i) build.add_value(i);
+  for (const EffectEntry& e : catalogue()) build.add_effect(e);
+  return build.end();
 }
 
 std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle& vehicle,
