@@ -217,6 +217,29 @@ TEST(FlightStreams, APathIsLateInALogWithoutAttitude) {
   EXPECT_FALSE(moved[0].has_attitude());
 }
 
+// No accelerometer is early by a tenth of a second, whether or not anything else says so. Satellites are
+// seldom heard.
+TEST(FlightStreams, APathThatIsLaterThanAnySensorIsEarlyIsLate) {
+  const Vehicle vehicle = random_vehicle(5);
+  const FlightLog whole = late_by(25, vehicle, {&FlightLog::v_W, &FlightLog::x_W});
+  for (const std::size_t every : {1, 20})
+    for (const bool with_speeds : {true, false}) {
+      FlightLog log = whole;
+      for (const auto stream : {&FlightLog::v_W, &FlightLog::x_W})
+        for (auto& column : log.*stream)
+          for (std::size_t i = 0; i < column.size(); ++i)
+            if (i % every != 0) column[i] = kNaN;
+      if (!with_speeds) log.Omega.clear();
+      const std::vector<FlightLog> logs{log};
+      EXPECT_NEAR(stream_offsets(record_of(vehicle, logs), vehicle.g).force.seconds, -25 / kRate, 4e-3);
+      const auto [moved, warnings] = aligned(vehicle, log);
+      ASSERT_FALSE(moved.empty()) << every;
+      EXPECT_EQ(moved[0].f_B[2][1000], log.f_B[2][1000]) << warnings[0].message;
+      EXPECT_NE(moved[0].v_W[2][1000], log.v_W[2][1000]) << warnings[0].message;
+      EXPECT_EQ(moved[0].q_WB[1][1000], log.q_WB[1][1000]);
+    }
+}
+
 // Force and speeds are in time with each other once the IMU was moved: what is left is the path's.
 TEST(FlightStreams, ImuAndPathMayBeLateBoth) {
   const Vehicle vehicle = random_vehicle(5);

@@ -13,7 +13,9 @@ constexpr std::size_t kFewest = 200;  ///< windows to judge
 constexpr double kAlike = 0.8;        ///< correlation of an axis that says anything
 constexpr double kBeyondDoubt = 5.0;  ///< standard deviations
 constexpr double kOfAnInterval = 0.1;
+constexpr long kSteps = 15;  ///< to either side
 
+using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -50,7 +52,7 @@ Sum sum_of(const std::array<Sum, kParts>& parts, int without) {
 
 /// Share of what is told on an axis that the axes seen explain, one against another a little turned: a sensor
 /// that is mounted askew would else look late. 0 where its own axis says the opposite.
-double explained(const Seen& seen, const Told& told, Eigen::Index axis) {
+double explained(const Seen& seen, const Told& told, Index axis) {
   if (!(seen.n > 4)) return 0.0;
   Matrix3d A = seen.aa - seen.a * seen.a.transpose() / seen.n;
   const Vector3d c = told.ab - seen.a * (told.b / seen.n);
@@ -67,7 +69,7 @@ std::vector<double> left(const SeenParts& seen, const ToldParts& told, const std
   std::vector<double> out;
   const Seen all = sum_of(seen, without);
   for (std::size_t k = 0; k < told.size(); ++k)
-    if (alike[k]) out.push_back(1 - explained(all, sum_of(told[k], without), static_cast<Eigen::Index>(k)));
+    if (alike[k]) out.push_back(1 - explained(all, sum_of(told[k], without), static_cast<Index>(k)));
   return out;
 }
 
@@ -96,27 +98,41 @@ bool StreamOffset::matters(double interval, double shortest) const {
          std::abs(seconds) > std::max(shortest, kOfAnInterval * interval);
 }
 
-StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, double lag) {
-  const ChangeWindows windows = change_windows(lag, interval);
-  const long step = std::max<long>(1, static_cast<long>(windows.margin) / 15);
-  const long most = static_cast<long>(windows.margin) / step;
-  const std::size_t axes_seen = arcs.empty() ? 0 : arcs[0].seen.size();
-  std::vector<ToldParts> shifts(static_cast<std::size_t>(2 * most + 1), ToldParts(axes_seen));
-  SeenParts seen;
-  std::size_t count = 0, before = 0;
-  std::vector<std::vector<Vector3d>> turned_of;
+namespace {
+
+/// Changes seen, of all axes, by arc.
+std::vector<std::vector<Vector3d>> changes_seen(const std::vector<StreamSides>& arcs,
+                                                const ChangeWindows& windows) {
+  std::vector<std::vector<Vector3d>> out;
   for (const StreamSides& arc : arcs) {
-    std::vector<Vector3d>& turned = turned_of.emplace_back();
-    for (std::size_t k = 0; k < axes_seen; ++k) {
+    std::vector<Vector3d>& turned = out.emplace_back();
+    for (std::size_t k = 0; k < arc.seen.size(); ++k) {
       const Track axis = changes(arc.seen[k], windows);
       turned.resize(axis.size(), Vector3d::Zero());
-      for (std::size_t j = 0; j < axis.size(); ++j) turned[j][static_cast<Eigen::Index>(k)] = axis[j];
+      for (std::size_t j = 0; j < axis.size(); ++j) turned[j][static_cast<Index>(k)] = axis[j];
     }
-    count += turned.size();
   }
-  if (count < kFewest) return {};
+  return out;
+}
+
+/// Shifts that are tried, in rows.
+struct Shifts {
+  long from, step, count;
+  long at(std::size_t i) const { return from + static_cast<long>(i) * step; }
+};
+
+/// The shift at which the sides agree best, rows; NaN where none does, or where that is the first or the
+/// last. Spread by leaving out parts of the flight.
+StreamOffset best_of(const std::vector<StreamSides>& arcs, const ChangeWindows& windows,
+                     const Shifts& tried) {
+  const std::size_t axes_seen = arcs.empty() ? 0 : arcs[0].seen.size();
+  std::vector<ToldParts> shifts(static_cast<std::size_t>(tried.count), ToldParts(axes_seen));
+  SeenParts seen;
+  const std::vector<std::vector<Vector3d>> turned_of = changes_seen(arcs, windows);
+  std::size_t count = 0, before = 0;
+  for (const auto& turned : turned_of) count += turned.size();
+  if (count < kFewest) return {kNaN, kNaN};
   for (std::size_t a = 0; a < arcs.size(); ++a) {
-    const StreamSides& arc = arcs[a];
     const std::vector<Vector3d>& turned = turned_of[a];
     const auto part_of = [&](std::size_t j) { return (before + j) * kParts / count; };
     for (std::size_t j = 0; j < turned.size(); ++j) {
@@ -124,11 +140,11 @@ StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, do
       part.n += 1, part.a += turned[j], part.aa += turned[j] * turned[j].transpose();
     }
     for (std::size_t k = 0; k < axes_seen; ++k) {
-      const RunningSum sums(arc.told[k]);
-      for (long s = -most; s <= most; ++s) {
-        const Track told = changes(sums, windows, -s * step);
+      const RunningSum sums(arcs[a].told[k]);
+      for (std::size_t i = 0; i < shifts.size(); ++i) {
+        const Track told = changes(sums, windows, -tried.at(i));
         for (std::size_t j = 0; j < turned.size(); ++j) {
-          Told& part = shifts[static_cast<std::size_t>(s + most)][k][part_of(j)];
+          Told& part = shifts[i][k][part_of(j)];
           part.b += told[j], part.bb += told[j] * told[j], part.ab += told[j] * turned[j];
         }
       }
@@ -138,18 +154,39 @@ StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, do
   std::vector<bool> alike(axes_seen, false);
   for (const ToldParts& axes : shifts)
     for (std::size_t k = 0; k < axes_seen; ++k)
-      if (explained(sum_of(seen, -1), sum_of(axes[k], -1), static_cast<Eigen::Index>(k)) > kAlike * kAlike)
+      if (explained(sum_of(seen, -1), sum_of(axes[k], -1), static_cast<Index>(k)) > kAlike * kAlike)
         alike[k] = true;
-  if (std::ranges::none_of(alike, [](bool x) { return x; })) return {};
+  if (std::ranges::none_of(alike, [](bool x) { return x; })) return {kNaN, kNaN};
   const auto peak = [&](int without) {
     std::vector<std::vector<double>> shares;
     for (const ToldParts& axes : shifts) shares.push_back(left(seen, axes, alike, without));
-    return (likeliest(shares) - static_cast<double>(most)) * static_cast<double>(step) * interval;
+    return static_cast<double>(tried.from) + likeliest(shares) * static_cast<double>(tried.step);
   };
   double square = 0;  // jackknife
   const double all = peak(-1);
   for (int part = 0; part < kParts; ++part) square += std::pow(peak(part) - all, 2);
   return {all, std::sqrt(square * (kParts - 1.0) / kParts)};
+}
+
+/// Within so many rows about one.
+StreamOffset best_about(const std::vector<StreamSides>& arcs, ChangeWindows windows, long middle,
+                        long reach) {
+  windows.margin = static_cast<std::size_t>(std::abs(middle) + reach);
+  const long step = std::max(1L, reach / kSteps), most = reach / step;
+  return best_of(arcs, windows, {middle - most * step, step, 2 * most + 1});
+}
+
+}  // namespace
+
+StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, double lag, double farthest) {
+  const ChangeWindows windows = change_windows(lag, interval);
+  const auto near = static_cast<long>(windows.margin);
+  StreamOffset found = best_about(arcs, windows, 0, near);
+  if (const auto far = std::lround(farthest / interval); !std::isfinite(found.seconds) && far > near)
+    if (const StreamOffset rough = best_about(arcs, windows, 0, far); std::isfinite(rough.seconds))
+      found = best_about(arcs, windows, std::lround(rough.seconds), near);
+  if (!std::isfinite(found.seconds)) return {};
+  return {found.seconds * interval, found.std * interval};
 }
 
 }  // namespace ident

@@ -20,7 +20,9 @@ struct StreamSides {
   std::vector<Track> seen, told;  ///< axes
 };
 
-/// How much later the told side is than the seen one, by changes over `lag` s.
-StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, double lag);
+/// How much later the told side is than the seen one, by changes over `lag` s. Where no shift of 60 ms makes
+/// them agree, as of GPS, up to `farthest` s.
+StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, double lag,
+                       double farthest = 0.0);
 
 }  // namespace ident

@@ -17,6 +17,7 @@ namespace {
 constexpr double kLag = 0.12;  ///< s of a window: short, for time to show
 /// Shorter yet for rotor speeds: a vehicle that climbs takes thrust back after a while, which looks late.
 constexpr double kLagOfSpeeds = 0.04;
+constexpr double kLatestPath = 0.3, kEarliestForce = 0.06;  ///< s: a GPS receiver is late
 constexpr double kShortTime = 0.03;  ///< s before and after over which an acceleration is taken
 /// s of rates and of specific force that matter: turns about a lever arm look like some ms of the force.
 constexpr double kShortestOfRates = 1e-3, kShortestOfForce = 8e-3;
@@ -95,11 +96,12 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
     return StreamSides{{sum_of_acceleration(arc, gravity)}, {sum_of_force(arc)}};
   };
   const auto any = [](const FlightArc&) { return true; };
-  const auto offset_by = [&](bool logged, double lag, const auto& sides_of, const auto& serves) {
+  const auto offset_by = [&](bool logged, double lag, const auto& sides_of, const auto& serves,
+                             double farthest = 0.0) {
     std::vector<StreamSides> sides;
     for (const FlightArc& arc : record.arcs)
       if (logged && arc.rows() > 1 && serves(arc)) sides.push_back(sides_of(arc));
-    return offset_of(sides, record.interval, lag);
+    return offset_of(sides, record.interval, lag, farthest);
   };
   // What is held between its samples is late by half of the time between them.
   const auto samples_thrust = [&](const FlightArc& arc) {
@@ -115,7 +117,7 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
     if (which == 0)
       found.rates = offset_by(s.rates && s.attitude, kLag, turns, any);
     else if (which == 1)
-      found.force = offset_by(s.force && s.velocity, kLag, forces, any);
+      found.force = offset_by(s.force && s.velocity, kLag, forces, any, kLatestPath);
     else
       found.speeds = offset_by(s.force && s.rotor_speeds, kLagOfSpeeds, thrusts, samples_thrust);
   });
@@ -159,19 +161,22 @@ void move_turns(const StreamOffsets& found, double interval, Moves& moves) {
 }
 
 // What is then left between force and velocity. Where the force is in time with the rotor speeds that make
-// it, it is the motion that is late; with the attitude, unless that is in time with the rates.
+// it, it is the motion that is late; with the attitude, unless that is in time with the rates. So it is where
+// the motion is later than any sensor is early, as that of a GPS receiver.
 void move_force(const StreamOffsets& found, const FlightRecord& record, Moves& moves) {
   StreamOffset force = found.force;
   force.seconds += moves.path - moves.force;
   if (!force.matters(record.interval, kShortestOfForce)) return;
   const double half = 0.5 * std::abs(force.seconds), speeds = found.speeds.seconds + moves.force;
-  if (std::abs(speeds) < half && kSureOfSpeeds * found.speeds.std < half) {
+  const bool in_time = std::abs(speeds) < half && kSureOfSpeeds * found.speeds.std < half;
+  if (in_time || force.seconds < -kEarliestForce) {
     const bool attitude = record.signals.attitude && !std::isfinite(found.rates.std);
     const std::string path = record.signals.position ? "velocity and position show" : "velocity shows";
     moves.path -= force.seconds;
     if (attitude) moves.attitude -= force.seconds;
-    moves.say((attitude ? "attitude, " : "the ") + path, "the specific force and the rotor speeds",
-              -force.seconds, force.std);
+    moves.say((attitude ? "attitude, " : "the ") + path,
+              in_time ? "the specific force and the rotor speeds" : "the specific force", -force.seconds,
+              force.std);
   } else {
     moves.force += force.seconds;
     moves.say("the specific force shows", "the velocity", force.seconds, force.std);
