@@ -177,6 +177,23 @@ TEST(FlightStreams, RotorSpeedsThatAreLateAreReadEarlier) {
   EXPECT_GE(told, 4);
 }
 
+// Thrust that climbs take back makes speeds look late to the force, and nothing of what turns the vehicle
+// does.
+TEST(FlightStreams, SpeedsThatOnlyTheForceCallsLateAreNot) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog log = simulated(vehicle, "mixed", 5);
+  for (auto& column : log.Omega) delay(column, 4);
+  EXPECT_FALSE(aligned(vehicle, log).logs.empty());
+  for (auto& column : log.w_B) delay(column, 4);
+  for (auto& column : log.q_WB) delay(column, 4);
+  const std::vector<FlightLog> logs{log};
+  const StreamOffsets found = stream_offsets(record_of(vehicle, logs), vehicle.g);
+  EXPECT_NEAR(found.speeds.seconds, 4 / kRate, 1e-3);
+  EXPECT_NEAR(found.moments.seconds, 0.0, 1e-3);
+  const auto [moved, warnings] = aligned(vehicle, log);
+  EXPECT_TRUE(moved.empty()) << warnings[0].message;
+}
+
 // 20 ms is more than a filter makes the rates late by: attitude and motion would be moved, if rotor speeds
 // did not say that it is the IMU.
 TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -72,16 +73,29 @@ bool sampled_in_every_row(const FlightArc& arc, int channel) {
   return sampled > kMost * static_cast<double>(arc.rows());
 }
 
-/// The running integral of the thrust along z of speeds as measured, over kT.
-Track sum_of_thrust(const FlightArc& arc, const FlightRecord& record) {
-  Track thrust(arc.rows(), 0.0);
+/// The running integral of the squares of speeds as measured, each times what `of` gives for its rotor.
+template <class Of>
+Track sum_over_rotors(const FlightArc& arc, const FlightRecord& record, const Of& of) {
+  Track sum(arc.rows(), 0.0);
   for (int n = 0; n < record.layout.rotors; ++n) {
-    const Rotor& rotor = record.vehicle->rotors[static_cast<std::size_t>(n)];
-    const double along = axis_at(rotor, record.p[param::alpha])[2];
+    const double times = of(record.vehicle->rotors[static_cast<std::size_t>(n)]);
     const Track speed = channel_track(arc, kRotorChannel + n);
-    for (std::size_t i = 0; i < speed.size(); ++i) thrust[i] += along * speed[i] * speed[i];
+    for (std::size_t i = 0; i < speed.size(); ++i) sum[i] += times * speed[i] * speed[i];
   }
-  return integral(arc.t, thrust);
+  return integral(arc.t, sum);
+}
+
+/// Thrust along z, over kT.
+Track sum_of_thrust(const FlightArc& arc, const FlightRecord& record) {
+  return sum_over_rotors(arc, record,
+                         [&](const Rotor& rotor) { return axis_at(rotor, record.p[param::alpha])[2]; });
+}
+
+/// Moment of thrust about an axis, over kT.
+Track sum_of_moment(const FlightArc& arc, const FlightRecord& record, Eigen::Index axis) {
+  return sum_over_rotors(arc, record, [&](const Rotor& rotor) {
+    return rotor.r_B.cross(axis_at(rotor, record.p[param::alpha]))[axis];
+  });
 }
 
 }  // namespace
@@ -104,22 +118,34 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
     return offset_of(sides, record.interval, lag, farthest);
   };
   // What is held between its samples is late by half of the time between them.
-  const auto samples_thrust = [&](const FlightArc& arc) {
-    bool all = sampled_in_every_row(arc, kForce + 2);
+  const auto samples_speeds = [&](const FlightArc& arc) {
+    bool all = true;
     for (int n = 0; n < record.layout.rotors; ++n) all = all && sampled_in_every_row(arc, kRotorChannel + n);
     return all;
+  };
+  const auto samples_thrust = [&](const FlightArc& arc) {
+    return samples_speeds(arc) && sampled_in_every_row(arc, kForce + 2);
   };
   const auto thrusts = [&](const FlightArc& arc) {
     return StreamSides{{integral(arc.t, specific_force(arc)[2])}, {sum_of_thrust(arc, record)}};
   };
+  const auto moments = [&](const FlightArc& arc) {
+    return StreamSides{{channel_track(arc, kGyro), channel_track(arc, kGyro + 1)},
+                       {sum_of_moment(arc, record, 0), sum_of_moment(arc, record, 1)}};
+  };
+  const auto samples_moments = [&](const FlightArc& arc) {
+    return samples_speeds(arc) && sampled_in_every_row(arc, kGyro) && sampled_in_every_row(arc, kGyro + 1);
+  };
   StreamOffsets found;
-  in_parallel(3, [&](std::size_t which) {
+  in_parallel(4, [&](std::size_t which) {
     if (which == 0)
       found.rates = offset_by(s.rates && s.attitude, kLag, turns, any);
     else if (which == 1)
-      found.force = offset_by(s.force && s.velocity, kLag, forces, any, kLatestPath);
-    else
+      found.force = offset_by(s.force && (s.velocity || s.position), kLag, forces, any, kLatestPath);
+    else if (which == 2)
       found.speeds = offset_by(s.force && s.rotor_speeds, kLagOfSpeeds, thrusts, samples_thrust);
+    else
+      found.moments = offset_by(s.rates && s.rotor_speeds, kLagOfSpeeds, moments, samples_moments);
   });
   return found;
 }
@@ -132,7 +158,8 @@ struct Moves {
   std::vector<Warning> said;
 
   bool any() const { return !said.empty(); }
-  void say(const std::string& what, const char* against, double late, double std, const char* how = "") {
+  void say(const std::string& what, const std::string& against, double late, double std,
+           const char* how = "") {
     said.push_back(
         {"stream_offset",
          fmt::format("{} the same motion {} ms (± {}) {} than {}: {}read that much {}", what,
@@ -144,7 +171,7 @@ struct Moves {
 // Late rates were filtered, and so was the specific force; what is later than that came by another way, or
 // rotor speeds show that it is the IMU that is late.
 void move_turns(const StreamOffsets& found, double interval, Moves& moves) {
-  const auto& [rates, force, speeds] = found;
+  const StreamOffset &rates = found.rates, &speeds = found.speeds;
   if (!rates.matters(interval, kShortestOfRates)) return;
   const bool filtered = rates.seconds > 0 && rates.seconds < kLongestFilter;
   const bool imu = rates.seconds > 0 && speeds.matters(interval, kShortestOfSpeeds) &&
@@ -168,25 +195,30 @@ void move_force(const StreamOffsets& found, const FlightRecord& record, Moves& m
   force.seconds += moves.path - moves.force;
   if (!force.matters(record.interval, kShortestOfForce)) return;
   const double half = 0.5 * std::abs(force.seconds), speeds = found.speeds.seconds + moves.force;
+  const bool both = record.signals.velocity && record.signals.position;
+  const std::string path = both ? "velocity and position" : record.signals.velocity ? "velocity" : "position";
   const bool in_time = std::abs(speeds) < half && kSureOfSpeeds * found.speeds.std < half;
   if (in_time || force.seconds < -kEarliestForce) {
     const bool attitude = record.signals.attitude && !std::isfinite(found.rates.std);
-    const std::string path = record.signals.position ? "velocity and position show" : "velocity shows";
     moves.path -= force.seconds;
     if (attitude) moves.attitude -= force.seconds;
-    moves.say((attitude ? "attitude, " : "the ") + path,
+    moves.say((attitude ? "attitude, " : "the ") + path + (both ? " show" : " shows"),
               in_time ? "the specific force and the rotor speeds" : "the specific force", -force.seconds,
               force.std);
   } else {
     moves.force += force.seconds;
-    moves.say("the specific force shows", "the velocity", force.seconds, force.std);
+    moves.say("the specific force shows", "the " + path, force.seconds, force.std);
   }
 }
 
+// Speeds that are late are as late to what turns the vehicle. A load that swings, or air that damps climbs
+// and turns, sets them apart in time as well, but by another time each.
 void move_speeds(const StreamOffsets& found, double interval, Moves& moves) {
-  StreamOffset speeds = found.speeds;
-  speeds.seconds += moves.force;
+  StreamOffset speeds = found.speeds, moments = found.moments;
+  speeds.seconds += moves.force, moments.seconds += moves.rates;
   if (!(speeds.seconds > 0) || !speeds.matters(interval, kShortestOfSpeeds)) return;
+  const double apart = std::abs(moments.seconds - speeds.seconds);
+  if (apart > std::max(kSureOfSpeeds * std::hypot(moments.std, speeds.std), 0.5 * speeds.seconds)) return;
   moves.speeds = speeds.seconds;
   moves.say("rotor speeds show", "the specific force", speeds.seconds, speeds.std);
 }

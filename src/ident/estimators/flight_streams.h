@@ -9,10 +9,11 @@
 
 namespace ident {
 
-/// The rates against the attitude, the specific force against the velocity, and rotor speeds against the
-/// specific force, over all logs: what comes by one way is late in all of them.
+/// The rates against the attitude, the specific force against the motion along the path, and rotor speeds
+/// against the specific force and, by their moments about x and y, against the rates, over all logs: what
+/// comes by one way is late in all of them.
 struct StreamOffsets {
-  StreamOffset rates, force, speeds;
+  StreamOffset rates, force, speeds, moments;
 };
 StreamOffsets stream_offsets(const FlightRecord& record, double gravity);
 
@@ -20,7 +21,8 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity);
 /// Rates and specific force that are late as by a filter, or against rotor speeds too, are moved to the
 /// attitude, or else attitude, velocity and position to the rates. What is then left between force and
 /// velocity moves the force, or the path where rotor speeds say that the force is in time; rotor speeds that
-/// are late to the force move last. Empty where nothing has to be moved.
+/// are late to the force, and as late to the rates where these tell, move last. Empty where nothing has to be
+/// moved.
 std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
                                        double gravity, std::vector<Warning>& warnings);
 
