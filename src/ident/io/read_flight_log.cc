@@ -47,11 +47,28 @@ std::vector<double> put_time_in_order(NumberTable& table) {
   return order.breaks;
 }
 
+// Seconds since 1970 leave a double too few digits for what lies between two rows: then times count from the
+// first whole second. Gives that.
+double count_from_begin(NumberTable& table, std::vector<double>& breaks) {
+  constexpr double kLong = 1e5;  // s, of which a double tells some picoseconds
+  std::vector<double>& t = std::ranges::find(table.columns, std::string("t"), &Column::name)->values;
+  const double first = t.empty() || !(std::abs(t.front()) > kLong) ? 0.0 : std::floor(t.front());
+  if (first == 0) return first;
+  for (double& one : t) one -= first;
+  for (double& one : breaks) one -= first;
+  table.notices.push_back(fmt::format("{}: times count from {:.0f} s of the log", table.file, first));
+  return first;
+}
+
 class Builder {
  public:
   Builder(NumberTable table, const Vehicle& vehicle, const std::optional<LogMap>& map,
-          const LogColumns& columns, std::vector<double> breaks)
-      : table_(std::move(table)), vehicle_(vehicle), map_(map.value_or(LogMap{})), columns_(columns) {
+          const LogColumns& columns, std::vector<double> breaks, double first)
+      : table_(std::move(table)),
+        vehicle_(vehicle),
+        map_(map.value_or(LogMap{})),
+        columns_(columns),
+        first_(first) {
     log_.file = table_.file;
     log_.t = *table_.find("t");
     log_.warnings = table_.warnings;
@@ -221,7 +238,11 @@ class Builder {
                                        "whose z points up needs a map with 'frames: {world: enu}'"});
   }
 
+  // In the time of the log, or from its beginning where that is what times count from.
   void take_windows() {
+    if (first_ != 0)
+      for (auto& window : map_.windows)
+        if (std::abs(window[0]) >= std::abs(first_)) window[0] -= first_, window[1] -= first_;
     for (const auto& window : map_.windows) {
       const double from = window[0], to = window[1];
       const auto rows = std::ranges::count_if(log_.t, [&](double t) { return t >= from && t <= to; });
@@ -237,6 +258,7 @@ class Builder {
   const Vehicle& vehicle_;
   LogMap map_;
   const LogColumns& columns_;
+  double first_;
   FlightLog log_;
 };
 
@@ -251,7 +273,8 @@ FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const
   drop_empty_columns(table, schema);
   expect_plausible(table, schema, csv.header_line());
   std::vector<double> breaks = put_time_in_order(table);
-  return Builder(std::move(table), vehicle, map, columns, std::move(breaks)).run();
+  const double first = count_from_begin(table, breaks);
+  return Builder(std::move(table), vehicle, map, columns, std::move(breaks), first).run();
 }
 
 }  // namespace ident
