@@ -34,4 +34,15 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
   return step[at] * step[at] / (direction[at] * stretch);
 }
 
+bool may_be_nothing(const Theta& theta, const FlightFit& fit, const std::string& name, double deviations) {
+  const double power_of_km = name == "Omega_0" ? -1 : name == "Jp" ? 1 : 0;
+  VectorXd relative = VectorXd::Zero(fit.u.size());
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    if (c.name == name) relative[i] = theta.slope(fit.u, i) / (theta.physical(fit.u, i) - c.start);
+    if (c.index == param::km) relative[i] = power_of_km * theta.slope(fit.u, i) / theta.physical(fit.u, i);
+  }
+  return !(deviations * deviations * relative.dot(fit.covariance * relative) < 1);
+}
+
 }  // namespace ident

@@ -44,24 +44,6 @@ bool watches(const FittedFlight& flight, const std::string& name) {
                              [&](const FreeConstant& c) { return c.watched && c.name == name; });
 }
 
-// How a constant goes with km, which speeds that nobody measured leave open: Omega_0/km and Jp km are told.
-double power_of_km(const std::string& name) {
-  if (name == kOffset) return -1;
-  return name == kRotor ? 1 : 0;
-}
-
-bool may_be_nothing(const FittedFlight& flight, const std::string& name, double deviations) {
-  const Theta& theta = *flight.theta;
-  const VectorXd& u = flight.fit.u;
-  VectorXd relative = VectorXd::Zero(u.size());
-  for (int i = 0; i < theta.constants_count(); ++i) {
-    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    if (c.name == name) relative[i] = theta.slope(u, i) / (theta.physical(u, i) - c.start);
-    if (c.index == param::km) relative[i] = power_of_km(name) * theta.slope(u, i) / theta.physical(u, i);
-  }
-  return !(deviations * deviations * relative.dot(flight.fit.covariance * relative) < 1);
-}
-
 void warn_of(const std::vector<std::string>& found, Result& result) {
   if (is_in(found, kOffset))
     result.warn("command_offset",
@@ -142,20 +124,25 @@ class WatchedFit {
     fit_options_.steps = Steps::longest;  // on the way to its exact end
   }
 
+  // Where nothing flies with the constants that nobody states as they are held, with one of them free.
   void begin(std::vector<FreeConstant> constants) {
-    if (is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_)) try {
-        fit(with({kRotor}));
-        found_ = {kRotor}, asked_at_once_ = true;
-        return;
-      } catch (const DataError&) {  // nothing flies with it
-      }
-    fit(theta_of(std::move(constants)));
+    if (is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_) && begins_with(kRotor)) return;
+    std::vector<std::string> left;
+    for (const std::string& name : {kRotor, kDeadTime})
+      if (is_in(watched_, name) && record_.signals.commands && !is_there(name, constants, vehicle_))
+        left.push_back(name);
+    try {
+      fit(theta_of(std::move(constants)));
+    } catch (const DataError&) {
+      if (std::ranges::none_of(left, [&](const std::string& name) { return begins_with(name); })) throw;
+    }
   }
 
   // Frees or holds one more; whether there was anything to change.
   bool step() {
     if (const auto name = against(false)) {
       free(*name);
+      if (!tried_alone_ && is_in(found_, kOffset) && is_in(found_, kDeadTime)) try_delay_alone();
     } else if (is_in(watched_, kOffset) && watches(one_, kOffset) &&
                steady_push(record_, one_.fit).matters(vehicle_.g)) {
       try_offset();
@@ -176,6 +163,16 @@ class WatchedFit {
   std::unique_ptr<Theta> theta_of(std::vector<FreeConstant> of) const {
     watch(watched_, of, vehicle_, record_, p_);
     return std::make_unique<Theta>(p_, std::move(of), record_.logs, record_.signals.rates);
+  }
+
+  bool begins_with(const std::string& name) {
+    try {
+      fit(with({name}));
+    } catch (const DataError&) {  // nothing flies with it
+      return false;
+    }
+    found_ = {name}, unasked_ = name;
+    return true;
   }
 
   std::unique_ptr<Theta> with(const std::vector<std::string>& more) const {
@@ -236,6 +233,17 @@ class WatchedFit {
       std::erase(watched_, kOffset);
   }
 
+  // Commands that are logged late ask for motors without a lag, and from there for an offset before they ask
+  // for a delay: with that from the beginning no offset may be missing.
+  void try_delay_alone() {
+    tried_alone_ = true;
+    std::vector<std::string> alone = found_;
+    std::erase(alone, kOffset);
+    auto other = refitted(alone, false);
+    if (other && other->fit.smoother->surprise() < one_.fit.smoother->surprise())
+      one_ = std::move(*other), found_ = std::move(alone);
+  }
+
   std::optional<std::string> against(bool of_yaw) const {
     std::vector<std::string> names = watched_;
     std::erase_if(names, [&](const std::string& name) { return (name == kRotor) != of_yaw; });
@@ -245,8 +253,8 @@ class WatchedFit {
   // Of what was found, while something else was still missing perhaps; it is asked no more.
   bool drop_one() {
     const auto name = std::ranges::find_if(found_, [&](const std::string& of) {
-      const bool unasked = asked_at_once_ && of == kRotor;
-      return may_be_nothing(one_, of, unasked ? std::sqrt(kBeyondDoubtOfYaw) : kByChance);
+      return may_be_nothing(*one_.theta, one_.fit, of,
+                            of == unasked_ ? std::sqrt(kBeyondDoubtOfYaw) : kByChance);
     });
     if (name == found_.end()) return false;
     std::vector<std::string> less = found_;
@@ -264,7 +272,8 @@ class WatchedFit {
   FlightFitOptions fit_options_;
   std::vector<std::string> watched_, found_;
   FittedFlight one_;
-  bool asked_at_once_ = false;
+  bool tried_alone_ = false;
+  std::string unasked_;  // free from the beginning, with nothing that asked for it
 };
 
 }  // namespace
