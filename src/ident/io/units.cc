@@ -137,6 +137,11 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+// As programs write the elements of a vector: gyro_rad[0].
+bool is_index(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 }  // namespace
 
 std::optional<double> unit_factor(std::string_view spelling, Dimension dimension) {
@@ -163,6 +168,7 @@ HeaderName split_header(std::string_view header) {
     const std::size_t at = header.rfind(open);
     if (at == std::string_view::npos) continue;
     const std::string_view unit = trimmed(header.substr(at + 1, header.size() - at - 2));
+    if (is_index(unit) && at > 0 && header[at - 1] != ' ') continue;
     HeaderName name{std::string(trimmed(header.substr(0, at))), std::nullopt};
     if (!unit.empty()) name.unit = std::string(unit);
     return name;
