@@ -158,6 +158,24 @@ TEST(Watched, CommandsThatComeTooLateMakeNothingCertainOfTheMotorsLag) {
     EXPECT_FALSE(result.find(name)->identifiable) << name;
 }
 
+// Motors of which nothing is known take a delay of 20 ms for no lag, and what that leaves for an offset.
+TEST(Watched, CommandsThatComeMuchTooLateAskForNoOffset) {
+  Vehicle truth = quad(0.0);
+  truth.parameters["omega_m"].value = 45, truth.parameters["zeta_m"].value = 1;
+  Vehicle stated = silent(truth);
+  for (const char* name : {"omega_m", "zeta_m"}) stated.parameters.erase(name);
+  FlightLog log = flight(truth, 250, 1);
+  for (auto& command : log.delta) {
+    std::copy_backward(command.begin(), command.end() - 5, command.end());
+    std::fill_n(command.begin(), 5, command[5]);
+  }
+  const Result result = refine_flight(stated, std::span(&log, 1), {.validate = false});
+  EXPECT_FALSE(result.has_warning("command_offset"));
+  EXPECT_TRUE(result.has_warning("negative_dead_time"));
+  EXPECT_NEAR(result.find("dead_time")->value, truth.value("dead_time") - 0.02, 2e-3);
+  for (const char* name : {"kT", "Jxx", "Jyy"}) expect_known(result, truth, name, 0.1);
+}
+
 TEST(Watched, WhatIsStatedIsHeld) {
   const Vehicle truth = quad(0.006);
   for (const char* name : {"dead_time", "motor_delay.tau"}) {

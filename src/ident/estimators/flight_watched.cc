@@ -44,6 +44,12 @@ bool watches(const FittedFlight& flight, const std::string& name) {
                              [&](const FreeConstant& c) { return c.watched && c.name == name; });
 }
 
+bool is_negative(const FittedFlight& flight, const std::string& name) {
+  for (int i = 0; i < flight.theta->constants_count(); ++i)
+    if (flight.theta->name(i) == name) return flight.theta->physical(flight.fit.u, i) < 0;
+  return false;
+}
+
 void warn_of(const std::vector<std::string>& found, Result& result) {
   if (is_in(found, kOffset))
     result.warn("command_offset",
@@ -142,7 +148,9 @@ class WatchedFit {
   bool step() {
     if (const auto name = against(false)) {
       free(*name);
-      if (!tried_alone_ && is_in(found_, kOffset) && is_in(found_, kDeadTime)) try_delay_alone();
+      if (!tried_alone_ && is_in(found_, kDeadTime) &&
+          (is_in(found_, kOffset) || is_negative(one_, kDeadTime)))
+        try_delay_alone();
     } else if (is_in(watched_, kOffset) && watches(one_, kOffset) &&
                steady_push(record_, one_.fit).matters(vehicle_.g)) {
       try_offset();
