@@ -268,15 +268,37 @@ TEST(FlightStreams, ImuAndPathMayBeLateBoth) {
     EXPECT_LT(std::abs(one.seconds), 2e-3) << warnings[0].message;
 }
 
-// Held from one sample to the next, speeds in time look late by half of what is between.
-TEST(FlightStreams, SpeedsThatAreSampledSeldomTellNothing) {
+// Held from one sample to the next they would look late by half of what is between.
+TEST(FlightStreams, SpeedsThatAreSampledSeldomAreNotLateForThat) {
   const Vehicle vehicle = random_vehicle(5);
   FlightLog log = simulated(vehicle, "mixed", 5);
   for (auto& column : log.Omega)
     for (std::size_t i = 0; i < column.size(); ++i)
       if (i % 4 != 0) column[i] = kNaN;
   const std::vector<FlightLog> logs{log};
-  EXPECT_FALSE(std::isfinite(stream_offsets(record_of(vehicle, logs), vehicle.g).speeds.std));
+  EXPECT_LT(std::abs(stream_offsets(record_of(vehicle, logs), vehicle.g).speeds.seconds), 1e-3);
+  EXPECT_TRUE(aligned(vehicle, log).logs.empty());
+}
+
+// Motion capture is faster than that sensor, or nobody logged the commands.
+TEST(FlightStreams, LateSpeedsAreFoundBesideASlowImuAndWithoutCommands) {
+  const Vehicle vehicle = random_vehicle(5);
+  FlightLog slow = simulated(vehicle, "mixed", 5);
+  for (auto& column : slow.Omega) delay(column, 3);
+  FlightLog without = slow;
+  without.delta.clear();
+  for (const auto sensor : {&FlightLog::w_B, &FlightLog::f_B})
+    for (auto& column : slow.*sensor)
+      for (std::size_t i = 1; i < column.size(); i += 2) column[i] = kNaN;
+  for (const FlightLog* log : {&slow, &without}) {
+    const std::vector<FlightLog> logs{*log};
+    const StreamOffsets found = stream_offsets(record_of(vehicle, logs), vehicle.g);
+    EXPECT_NEAR(found.moments.seconds, 3 / kRate, 1e-3);
+    const auto [moved, warnings] = aligned(vehicle, *log);
+    ASSERT_FALSE(moved.empty());
+    EXPECT_NE(warnings[0].message.find("rotor speeds show"), std::string::npos) << warnings[0].message;
+    EXPECT_NE(moved[0].Omega[0][1000], log->Omega[0][1000]);
+  }
 }
 
 TEST(FlightStreams, ARealAccelerometerIsLaterThanMotionCapture) {

@@ -11,6 +11,7 @@
 #include "ident/core/parallel.h"
 #include "ident/estimators/flight_log_shift.h"
 #include "ident/estimators/flight_motion.h"
+#include "ident/estimators/flight_record_start.h"
 
 namespace ident {
 namespace {
@@ -65,12 +66,24 @@ Track sum_of_force(const FlightArc& arc) {
   return integral(arc.t, size);
 }
 
-bool sampled_in_every_row(const FlightArc& arc, int channel) {
-  constexpr double kMost = 0.95;
+/// Whether a channel has samples enough for lines between them to stand for what lies there.
+bool sampled_often(const FlightArc& arc, int channel) {
+  constexpr double kLeast = 0.1;
   double sampled = 0;
   for (std::size_t i = 0; i < arc.rows(); ++i)
     sampled += std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(channel)]);
-  return sampled > kMost * static_cast<double>(arc.rows());
+  return sampled > kLeast * static_cast<double>(arc.rows());
+}
+
+/// Where speeds are the input they are none of the channels.
+bool has_speed(const FlightArc& arc, int rotor) {
+  const auto& input = arc.inputs->Omega;
+  if (arc.inputs->commanded()) return sampled_often(arc, kRotorChannel + rotor);
+  return rotor < std::ssize(input) && input[static_cast<std::size_t>(rotor)].size() == arc.rows();
+}
+Track speed_of(const FlightArc& arc, int rotor) {
+  return arc.inputs->commanded() ? filled_column(arc, kRotorChannel + rotor)
+                                 : arc.inputs->Omega[static_cast<std::size_t>(rotor)];
 }
 
 /// The running integral of the squares of speeds as measured, each times what `of` gives for its rotor.
@@ -79,7 +92,7 @@ Track sum_over_rotors(const FlightArc& arc, const FlightRecord& record, const Of
   Track sum(arc.rows(), 0.0);
   for (int n = 0; n < record.layout.rotors; ++n) {
     const double times = of(record.vehicle->rotors[static_cast<std::size_t>(n)]);
-    const Track speed = channel_track(arc, kRotorChannel + n);
+    const Track speed = speed_of(arc, n);
     for (std::size_t i = 0; i < speed.size(); ++i) sum[i] += times * speed[i] * speed[i];
   }
   return integral(arc.t, sum);
@@ -117,24 +130,23 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
       if (logged && arc.rows() > 1 && serves(arc)) sides.push_back(sides_of(arc));
     return offset_of(sides, record.interval, lag, farthest);
   };
-  // What is held between its samples is late by half of the time between them.
-  const auto samples_speeds = [&](const FlightArc& arc) {
+  const auto has_speeds = [&](const FlightArc& arc) {
     bool all = true;
-    for (int n = 0; n < record.layout.rotors; ++n) all = all && sampled_in_every_row(arc, kRotorChannel + n);
+    for (int n = 0; n < record.layout.rotors; ++n) all = all && has_speed(arc, n);
     return all;
   };
-  const auto samples_thrust = [&](const FlightArc& arc) {
-    return samples_speeds(arc) && sampled_in_every_row(arc, kForce + 2);
+  const auto shows_thrust = [&](const FlightArc& arc) {
+    return has_speeds(arc) && sampled_often(arc, kForce + 2);
   };
   const auto thrusts = [&](const FlightArc& arc) {
-    return StreamSides{{integral(arc.t, specific_force(arc)[2])}, {sum_of_thrust(arc, record)}};
+    return StreamSides{{integral(arc.t, filled_column(arc, kForce + 2))}, {sum_of_thrust(arc, record)}};
+  };
+  const auto shows_moments = [&](const FlightArc& arc) {
+    return has_speeds(arc) && sampled_often(arc, kGyro) && sampled_often(arc, kGyro + 1);
   };
   const auto moments = [&](const FlightArc& arc) {
-    return StreamSides{{channel_track(arc, kGyro), channel_track(arc, kGyro + 1)},
+    return StreamSides{{filled_column(arc, kGyro), filled_column(arc, kGyro + 1)},
                        {sum_of_moment(arc, record, 0), sum_of_moment(arc, record, 1)}};
-  };
-  const auto samples_moments = [&](const FlightArc& arc) {
-    return samples_speeds(arc) && sampled_in_every_row(arc, kGyro) && sampled_in_every_row(arc, kGyro + 1);
   };
   StreamOffsets found;
   in_parallel(4, [&](std::size_t which) {
@@ -143,9 +155,9 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity) {
     else if (which == 1)
       found.force = offset_by(s.force && (s.velocity || s.position), kLag, forces, any, kLatestPath);
     else if (which == 2)
-      found.speeds = offset_by(s.force && s.rotor_speeds, kLagOfSpeeds, thrusts, samples_thrust);
+      found.speeds = offset_by(s.force && s.rotor_speeds, kLagOfSpeeds, thrusts, shows_thrust);
     else
-      found.moments = offset_by(s.rates && s.rotor_speeds, kLagOfSpeeds, moments, samples_moments);
+      found.moments = offset_by(s.rates && s.rotor_speeds, kLagOfSpeeds, moments, shows_moments);
   });
   return found;
 }
@@ -211,16 +223,20 @@ void move_force(const StreamOffsets& found, const FlightRecord& record, Moves& m
   }
 }
 
-// Speeds that are late are as late to what turns the vehicle. A load that swings, or air that damps climbs
-// and turns, sets them apart in time as well, but by another time each.
+// Speeds that are late are as late to what turns the vehicle, which mostly tells more sharply by how much. A
+// load that swings, or air that damps climbs and turns, sets them apart in time as well, but by another time
+// each.
 void move_speeds(const StreamOffsets& found, double interval, Moves& moves) {
   StreamOffset speeds = found.speeds, moments = found.moments;
   speeds.seconds += moves.force, moments.seconds += moves.rates;
-  if (!(speeds.seconds > 0) || !speeds.matters(interval, kShortestOfSpeeds)) return;
+  if (!std::isfinite(speeds.std)) return;
+  const bool by_moments = moments.std < speeds.std;
+  const StreamOffset& late = by_moments ? moments : speeds;
+  if (!(late.seconds > 0) || !late.matters(interval, kShortestOfSpeeds)) return;
   const double apart = std::abs(moments.seconds - speeds.seconds);
-  if (apart > std::max(kSureOfSpeeds * std::hypot(moments.std, speeds.std), 0.5 * speeds.seconds)) return;
-  moves.speeds = speeds.seconds;
-  moves.say("rotor speeds show", "the specific force", speeds.seconds, speeds.std);
+  if (apart > std::max(kSureOfSpeeds * std::hypot(moments.std, speeds.std), 0.5 * late.seconds)) return;
+  moves.speeds = late.seconds;
+  moves.say("rotor speeds show", by_moments ? "the rates" : "the specific force", late.seconds, late.std);
 }
 
 }  // namespace
