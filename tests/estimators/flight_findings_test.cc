@@ -9,6 +9,7 @@
 #include "ident/estimators/flight_commands_agree.h"
 #include "ident/estimators/flight_record.h"
 #include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_voltage.h"
 #include "ident/estimators/statistics.h"
 #include "support/known_quad.h"
 
@@ -270,6 +271,26 @@ TEST(FlightFindings, SpeedsThatHardlyChangeContradictNothing) {
   for (auto& column : log.Omega)  // telemetry at a fifth of the rate, held
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = column[i - i % 5];
   EXPECT_FALSE(commands_contradict_speeds(log));
+}
+
+TEST(FlightFindings, ABatteryThatTheModelDoesNotKnowIsNamed) {
+  Vehicle vehicle = quad();
+  FlightLog log = flight(vehicle, 100, 1, 10.0);
+  const auto falls_by = [&](double share) {
+    log.vbat.assign(log.t.size(), 16.0);
+    for (std::size_t i = 0; i < log.vbat.size(); ++i)
+      log.vbat[i] *= 1 - share * static_cast<double>(i) / static_cast<double>(log.vbat.size());
+    log.vbat[5] = 3.0;  // a spike
+    return battery_not_modelled(vehicle, std::span(&log, 1));
+  };
+  EXPECT_FALSE(falls_by(0.01));
+  ASSERT_TRUE(falls_by(0.05));
+  EXPECT_EQ(falls_by(0.05)->code, "battery_not_modelled");
+  vehicle.parameters["battery_sag.n"] = {1.0, 0.3};
+  EXPECT_FALSE(falls_by(0.05));
+  vehicle.parameters.erase("battery_sag.n");
+  log.delta.clear();
+  EXPECT_FALSE(falls_by(0.05));
 }
 
 }  // namespace

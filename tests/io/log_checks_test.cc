@@ -118,9 +118,9 @@ TEST(LogChecks, AnglesInDegreesAreToldFromAVehicleThatHardlyTurns) {
     SimulationOptions options;
     options.scenario = scenario, options.duration = 20.0, options.rate = 100.0;
     FlightLog log = simulate_flight(testing::published_vehicle(), options).log;
-    EXPECT_NO_THROW(check_rates_against_attitude(log, 1)) << scenario;
+    EXPECT_NO_THROW(check_rates_against_attitude(log, 1, false)) << scenario;
     take_degrees_for_radians(log);
-    EXPECT_THROW(check_rates_against_attitude(log, 1), InputError) << scenario;
+    EXPECT_THROW(check_rates_against_attitude(log, 1, false), InputError) << scenario;
   }
 }
 
@@ -135,7 +135,54 @@ TEST(LogChecks, ANoisyAttitudeOfAVehicleThatHardlyTurnsIsNotInDegrees) {
     }
     log.q_WB[0][i] = 1.0;
   }
-  EXPECT_NO_THROW(check_rates_against_attitude(log, 1));
+  EXPECT_NO_THROW(check_rates_against_attitude(log, 1, false));
+}
+
+FlightLog flown(const char* scenario) {
+  SimulationOptions options;
+  options.scenario = scenario, options.duration = 20.0, options.rate = 100.0, options.seed = 3;
+  return simulate_flight(testing::published_vehicle(), options).log;
+}
+
+TEST(LogChecks, VelocitiesAlongTheBodyAreNamedAndThoseOfTheWorldAreNot) {
+  const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d flu = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  for (const char* scenario : {"hover", "mixed", "eight"})
+    EXPECT_NO_THROW(check_velocity_axes(flown(scenario), 1, same));
+  FlightLog log = flown("mixed");
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const Eigen::Quaterniond q(log.q_WB[0][i], log.q_WB[1][i], log.q_WB[2][i], log.q_WB[3][i]);
+    const Eigen::Vector3d v_B = q.conjugate() * Eigen::Vector3d(log.v_W[0][i], log.v_W[1][i], log.v_W[2][i]);
+    for (std::size_t k = 0; k < 3; ++k) log.v_W[k][i] = v_B[static_cast<Eigen::Index>(k)];
+  }
+  EXPECT_THROW(check_velocity_axes(log, 1, same), InputError);
+  for (const std::size_t k : {1, 2})
+    for (double& v : log.v_W[k]) v = -v;
+  EXPECT_NO_THROW(check_velocity_axes(log, 1, same));
+  EXPECT_THROW(check_velocity_axes(log, 1, flu), InputError);
+}
+
+TEST(LogChecks, AnAccelerationWithoutGravityIsNamedHoweverHardItIsFlown) {
+  FlightLog log = flown("mixed");
+  check_specific_force(log, 1, 9.81);
+  EXPECT_TRUE(log.warnings.empty());
+  for (double& f : log.f_B[0]) f += 4.0;
+  for (double& f : log.f_B[2]) f += 9.81;
+  check_specific_force(log, 1, 9.81);
+  ASSERT_EQ(log.warnings.size(), 1u);
+  EXPECT_EQ(log.warnings[0].code, "gravity_missing");
+}
+
+TEST(LogChecks, OfQuaternionsTheRatesHaveTheWrongUnit) {
+  FlightLog log = flown("mixed");
+  for (auto& column : log.w_B)
+    for (double& w : column) w *= std::numbers::pi / 180;
+  for (const bool quaternions : {true, false}) try {
+      check_rates_against_attitude(log, 1, quaternions);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find("p, q, r") != std::string::npos, quaternions) << error.what();
+    }
 }
 
 }  // namespace

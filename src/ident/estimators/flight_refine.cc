@@ -25,6 +25,7 @@
 #include "ident/estimators/flight_thrust_curve.h"
 #include "ident/estimators/flight_trim.h"
 #include "ident/estimators/flight_validation.h"
+#include "ident/estimators/flight_voltage.h"
 #include "ident/estimators/flight_watched.h"
 #include "ident/estimators/statistics.h"
 
@@ -214,6 +215,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   doubt_contradicted(result);
   doubt_motors_without_effect(result);
   doubt_coarse_commands(result);
+  if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "ident/data/flight_log.h"
+#include "ident/model/vehicle.h"
 
 namespace ident {
 
@@ -18,5 +20,9 @@ inline double highest_voltage(std::span<const FlightLog> logs) {
       if (std::isfinite(v)) highest = std::max(highest, v);
   return highest;
 }
+
+/// `battery_not_modelled`: by how much the voltage of the logs varies where the vehicle file states no
+/// battery_sag, so that commands count as if it did not; none where that is little.
+std::optional<Warning> battery_not_modelled(const Vehicle& vehicle, std::span<const FlightLog> logs);
 
 }  // namespace ident

@@ -23,23 +23,6 @@ constexpr double kSlowestLog = 0.5;   // s between rows; slower is a log in othe
 constexpr double kLongGap = 10.0;     // times the usual step
 constexpr double kShortestGap = 0.1;  // s
 
-double norm(std::span<const std::vector<double>> sensor, std::size_t row) {
-  double sum = 0.0;
-  for (const std::vector<double>& c : sensor) sum += c[row] * c[row];
-  return std::sqrt(sum);
-}
-
-/// Angle between two attitudes.
-double turn(const FlightLog& log, std::size_t a, std::size_t b) {
-  double dot = 0.0;
-  for (const std::vector<double>& c : log.q_WB) dot += c[a] * c[b];
-  return 2.0 * std::acos(std::min(1.0, std::abs(dot)));
-}
-
-}  // namespace
-
-namespace {
-
 /// Whether a column holds noise: its second differences then change sign from row to row more often than not.
 bool is_noisy(const std::vector<double>& column, const std::vector<std::size_t>& rows) {
   constexpr double kAlternates = 0.4;  // two thirds do in white noise, none in what a formula gives
@@ -192,7 +175,7 @@ void check_specific_force(FlightLog& log, long header_line, double gravity) {
         log.file, header_line, "ax, ay, az",
         fmt::format("their size is {:.3g} mostly: that is in g; name the unit in the header, as in 'az [g]'",
                     size));
-  if (size < 0.3 * gravity)
+  if (size < 0.3 * gravity || (size < 0.7 * gravity && std::abs(down) < 0.2 * gravity))
     log.warnings.push_back(
         {"gravity_missing",
          fmt::format("{}: ax, ay, az: their size is {:.3g} m/s^2 mostly, far below gravity: an "
@@ -204,64 +187,6 @@ void check_specific_force(FlightLog& log, long header_line, double gravity) {
         fmt::format("is {:+.3g} m/s^2 mostly, but at rest a specific force points up, {:.3g}: body axes "
                     "that point left and up need a map with 'frames: {{body: flu}}'",
                     down, -gravity));
-}
-
-namespace {
-
-// How fast attitude turns with the rates, by the slope of its squared turns over those of the rates: noise of
-// the attitude adds to all of them alike.
-double turns_with_rates(std::span<const std::array<double, 2>> squares) {
-  double x = 0, y = 0, xx = 0, xy = 0;
-  const auto n = static_cast<double>(squares.size());
-  for (const auto& [by_rates, by_attitude] : squares) x += by_rates / n, y += by_attitude / n;
-  for (const auto& [by_rates, by_attitude] : squares)
-    xx += (by_rates - x) * (by_rates - x), xy += (by_rates - x) * (by_attitude - y);
-  return xx > 0 ? std::sqrt(std::max(xy / xx, 0.0)) : 0.0;
-}
-
-}  // namespace
-
-void check_rates_against_attitude(const FlightLog& log, long header_line) {
-  if (!log.has_rates() || !log.has_attitude()) return;
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  std::vector<std::array<double, 2>> squares;  // of short turns, by rates and by attitude
-  constexpr double kWindow = 0.02;  // s: short against a turn, even of angles that are taken for radians
-  constexpr double kTurning = 0.1;  // rad/s: below it noise tells nothing
-  double by_attitude = 0.0, by_rates = 0.0, rate_sum = 0.0;
-  long rates = 0;
-  std::optional<std::size_t> start;
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    const double rate = norm(log.w_B, i);
-    if (!std::isnan(rate)) rate_sum += rate, ++rates;
-    if (std::isnan(log.q_WB[0][i])) continue;
-    const double passed = start ? log.t[i] - log.t[*start] : 0.0;
-    if (start && passed < kWindow) continue;
-    const bool turning = start && turn(log, *start, i) > kTurning * passed;
-    if (start && passed < 0.2 && rates > 0)
-      if (const double by = rate_sum / static_cast<double>(rates) * passed; kDegrees * by < 1.0)
-        squares.push_back({by * by, std::pow(turn(log, *start, i), 2)});
-    if (turning && passed < 0.2 && rates > 0) {
-      by_attitude += turn(log, *start, i);
-      by_rates += rate_sum / static_cast<double>(rates) * passed;
-    }
-    start = i;
-    rate_sum = 0.0, rates = 0;
-  }
-  const double ratio = by_attitude > 0.0 ? by_rates / by_attitude : 1.0;
-  const bool enough = by_attitude > 0.5;  // rad in all
-  if (enough && ratio > 0.6 * kDegrees && ratio < 1.7 * kDegrees)
-    throw InputError(
-        log.file, header_line, "p, q, r",
-        fmt::format("are {:.3g} times faster than the attitude turns: they are in deg/s; name the unit in "
-                    "the header, as in 'p [deg/s]'",
-                    ratio));
-  const bool with_rates = turns_with_rates(squares) > 0.3 * kDegrees;
-  if (enough && with_rates && ratio * kDegrees > 0.6 && ratio * kDegrees < 1.7)
-    throw InputError(
-        log.file, header_line, "phi, theta, psi",
-        fmt::format("turn {:.3g} times faster than the rates say: they are in degrees; name the unit in "
-                    "the header, as in 'phi [deg]'",
-                    1.0 / ratio));
 }
 
 }  // namespace ident

@@ -1,6 +1,7 @@
 // Checks of a flight log that was read: what its numbers say about units, frames and rates.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,7 +49,12 @@ void check_time(FlightLog& log, long header_line, bool unit_stated);
 /// where gravity is missing from it.
 void check_specific_force(FlightLog& log, long header_line, double gravity);
 
-/// Throws InputError where rates disagree with the attitude by the factor of degrees to radians.
-void check_rates_against_attitude(const FlightLog& log, long header_line);
+/// Throws InputError where rates disagree with the attitude by the factor of degrees to radians;
+/// `quaternions` have no unit that could be wrong.
+void check_rates_against_attitude(const FlightLog& log, long header_line, bool quaternions);
+
+/// Throws InputError where velocities are along the axes of the body. `to_body` turns what was read as along
+/// those of the world to what it would be then.
+void check_velocity_axes(const FlightLog& log, long header_line, const Eigen::Matrix3d& to_body);
 
 }  // namespace ident

@@ -40,6 +40,13 @@ inline std::vector<std::size_t> rows_of(std::span<const std::vector<double>> sen
   return rows;
 }
 
+/// Length of a vector in a row.
+inline double norm(std::span<const std::vector<double>> sensor, std::size_t row) {
+  double sum = 0.0;
+  for (const std::vector<double>& c : sensor) sum += c[row] * c[row];
+  return std::sqrt(sum);
+}
+
 inline void clear_all(std::span<std::vector<double>> sensor) {
   for (std::vector<double>& c : sensor) c.clear();
 }

@@ -222,7 +222,8 @@ class Builder {
 
   void judge() {
     check_specific_force(log_, columns_.header_line, vehicle_.g);
-    check_rates_against_attitude(log_, columns_.header_line);
+    check_rates_against_attitude(log_, columns_.header_line, table_.find("qw") != nullptr);
+    check_velocity_axes(log_, columns_.header_line, to_frd(map_.body) * to_ned(map_.world).transpose());
     const bool moves =
         log_.has_rates() || log_.has_specific_force() || log_.has_attitude() || log_.has_velocity();
     if (!moves)
