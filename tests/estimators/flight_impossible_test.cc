@@ -45,6 +45,11 @@ TEST(FlightImpossible, WhatGoesWithANegativeDeadTimeIsNotKnown) {
   doubt_negative_dead_time(result);
   EXPECT_TRUE(result.has_warning("negative_dead_time"));
   EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time Jp ");
+  result = with_motors(25, 1.0, -0.004);
+  std::erase_if(result.parameters, [](const Parameter& p) { return p.name == "Jp"; });
+  result.parameters.push_back(told("Jzz", 4e-3, 4e-3));
+  doubt_negative_dead_time(result);
+  EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time Jzz ");
 }
 
 TEST(FlightImpossible, CoarseCommandsLeaveTheLagOpen) {
@@ -54,6 +59,15 @@ TEST(FlightImpossible, CoarseCommandsLeaveTheLagOpen) {
   result.warn("coarse_commands", "");
   doubt_coarse_commands(result);
   EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time ");
+}
+
+TEST(FlightImpossible, SpeedsFarApartLeaveInertiaOpen) {
+  Result result = with_motors(25, 1.0, 0.004);
+  doubt_seldom_speeds(result);
+  EXPECT_EQ(not_known(result), "");
+  result.warn("low_rate", "");
+  doubt_seldom_speeds(result);
+  EXPECT_EQ(not_known(result), "Jp Jxx ");
 }
 
 }  // namespace

@@ -115,8 +115,9 @@ TEST(Watched, WithoutCommandsNothingIsAskedOfMotors) {
   FlightLog log = flight(truth, 250, 1);
   log.delta.clear();
   const Result result = refine_flight(silent(truth), std::span(&log, 1), {.validate = false});
-  for (const char* name : {"dead_time", "Omega_0", "Jp", "km", "omega_m"})
-    EXPECT_EQ(result.find(name), nullptr);
+  for (const char* name : {"dead_time", "Omega_0", "km", "omega_m"}) EXPECT_EQ(result.find(name), nullptr);
+  EXPECT_TRUE(result.has_warning("rotor_inertia"));
+  for (const char* name : {"Jp", "Jzz"}) expect_known(result, truth, name, 0.1);
 }
 
 TEST(Watched, TenSecondsAreEnough) {

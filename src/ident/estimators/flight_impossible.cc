@@ -20,8 +20,10 @@ void doubt_negative_dead_time(Result& result) {
   early->note = "negative: no motor turns before its command";
   // What is early makes up for what else is late: motors that are too slow go with it, and rotors whose
   // inertia is ahead of their drag.
+  const bool rotors = result.find("Jp") != nullptr;  // else what they do about yaw is done by others
   for (Parameter& p : result.parameters)
-    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "Jp")
+    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "Jp" ||
+        (!rotors && (p.name == "kQ" || p.name == "Jzz")))
       p.doubt("goes with a negative dead_time, which no motor has");
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
   result.warn(
@@ -67,6 +69,15 @@ void doubt_coarse_commands(Result& result) {
   for (Parameter& p : result.parameters)
     if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "dead_time" || p.name == "Omega_0")
       p.doubt("commands were logged in coarse steps");
+}
+
+void doubt_seldom_speeds(Result& result) {
+  static constexpr std::array<std::string_view, 8> kOfTurning = {"kQ",  "Jp",  "Jxx", "Jyy",
+                                                                 "Jzz", "Jxy", "Jxz", "Jyz"};
+  if (!result.has_warning("low_rate")) return;
+  for (Parameter& p : result.parameters)
+    if (std::ranges::find(kOfTurning, p.name) != kOfTurning.end())
+      p.doubt("what the rotors do between rows that far apart was not measured");
 }
 
 void doubt_contradicted(Result& result) {

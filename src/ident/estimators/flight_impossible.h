@@ -9,7 +9,7 @@ namespace ident {
 bool is_before_its_command(const Parameter& p);
 
 /// Warns (`negative_dead_time`) of such a one, which counts as not identifiable, nor does the rest of the
-/// motors' lag.
+/// motors' lag, nor what the rotors' inertia takes part in.
 void doubt_negative_dead_time(Result& result);
 
 /// Warns (`negative_rotor_inertia`) of a Jp that is negative beyond chance: neither that nor Jzz and kQ count
@@ -26,5 +26,9 @@ void doubt_motors_without_effect(Result& result);
 /// Doubts the motors' lag and their offset where the self-test found that commands were logged in coarse
 /// steps.
 void doubt_coarse_commands(Result& result);
+
+/// Where speeds are the input and rows are far apart, as the self-test found, what turns the vehicle between
+/// them was not measured: its moments of inertia, and those of the rotors, are not known.
+void doubt_seldom_speeds(Result& result);
 
 }  // namespace ident

@@ -215,6 +215,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   doubt_contradicted(result);
   doubt_motors_without_effect(result);
   doubt_coarse_commands(result);
+  if (!record.signals.commands) doubt_seldom_speeds(result);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);

@@ -76,8 +76,15 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, std::span<const
           where, 100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
   static constexpr std::array<std::string_view, 12> kByThrust = {
       "m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"};
+  // Where that much is missing, nothing that the fit says of the motors is theirs.
+  static constexpr std::array<std::string_view, 3> kOfMotors = {"omega_m", "zeta_m", "dead_time"};
+  constexpr double kMuch = 0.2;  // of the weight
+  const bool much = std::abs(push.mean) > kMuch * gravity;
+  const auto is_in = [](const auto& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
   for (Parameter& p : result.parameters)
-    if (std::ranges::find(kByThrust, p.name) != kByThrust.end())
+    if (is_in(kByThrust, p.name) || (much && is_in(kOfMotors, p.name)))
       p.doubt("thrust as fitted is not what the vehicle felt");
 }
 

@@ -9,6 +9,7 @@
 #include "ident/estimators/flight_contradiction.h"
 #include "ident/estimators/flight_fit_steps.h"
 #include "ident/estimators/flight_steady_push.h"
+#include "ident/estimators/flight_unstated.h"
 
 namespace ident {
 
@@ -16,13 +17,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
 constexpr double kBeyondDoubt = 25.0;       // squared standard deviations, or fall of the cost
 constexpr double kBeyondDoubtOfYaw = 16.0;  // for Jp, which none of 56 flights without effect asks for then
 constexpr double kByChance = 2.0;           // standard deviations
-const std::string kOffset = "Omega_0", kDeadTime = "dead_time", kRotor = "Jp";
-// Effects that are the same.
-const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
 
 // The unknowns of one fit as those of another with the same logs; constants that are new there stand at 0.
 VectorXd carried(const FittedFlight& one, const Theta& to) {
@@ -35,10 +32,6 @@ VectorXd carried(const FittedFlight& one, const Theta& to) {
   return u;
 }
 
-bool is_in(const std::vector<std::string>& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 bool watches(const FittedFlight& flight, const std::string& name) {
   return std::ranges::any_of(flight.theta->constants(),
                              [&](const FreeConstant& c) { return c.watched && c.name == name; });
@@ -48,55 +41,6 @@ bool is_negative(const FittedFlight& flight, const std::string& name) {
   for (int i = 0; i < flight.theta->constants_count(); ++i)
     if (flight.theta->name(i) == name) return flight.theta->physical(flight.fit.u, i) < 0;
   return false;
-}
-
-void warn_of(const std::vector<std::string>& found, Result& result) {
-  if (is_in(found, kOffset))
-    result.warn("command_offset",
-                "the rotors' speed is not proportional to the command, or the mass or kT as stated is wrong: "
-                "Omega_0, their speed at command 0 as the line through the flown commands gives it, is "
-                "estimated too");
-  if (is_in(found, kDeadTime))
-    result.warn("dead_time",
-                "rotors follow their commands later or earlier than motors without a dead time would, and "
-                "none is stated: dead_time is estimated too, with whatever commands and sensors are apart in "
-                "time");
-  if (is_in(found, kRotor))
-    result.warn("rotor_inertia",
-                "rotors that speed up turn the vehicle as they would with inertia, and none is stated: Jp is "
-                "estimated too, on which Jzz and kQ depend");
-}
-
-bool is_there(const std::string& name, const std::vector<FreeConstant>& constants, const Vehicle& vehicle) {
-  const auto is_stated = [&](const std::string& of) {
-    return vehicle.has(of) || std::ranges::find(constants, of, &FreeConstant::name) != constants.end();
-  };
-  return is_stated(name) || (name == kDeadTime && is_stated(kDelay)) ||
-         (name == kRotor && is_stated(kMomentum));
-}
-
-// Where nothing is known of the inertia about yaw, it takes the place of that of the rotors, and what the one
-// leaves of the other's work passes for gusts: then both are free from the start.
-bool asks_at_once(const std::vector<FreeConstant>& constants, const Vehicle& vehicle,
-                  const FlightRecord& record) {
-  const auto Jzz = std::ranges::find(constants, int{param::Jzz}, &FreeConstant::index);
-  return record.signals.commands && !is_there(kRotor, constants, vehicle) && Jzz != constants.end() &&
-         !Jzz->prior_std;
-}
-
-// Adds those of `names` to the constants, held where they are and watched: what the flight says against that
-// comes with the fit. Not one that the vehicle states or that is free, nor one that is there as an effect.
-void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
-           const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p) {
-  if (!record.signals.commands) return;
-  for (const std::string& name : names) {
-    if (is_there(name, constants, vehicle)) continue;
-    const std::vector<FreeConstant> all = free_constants(vehicle, p, {name});
-    FreeConstant held = *std::ranges::find(all, name, &FreeConstant::name);
-    held.watched = true;
-    held.prior_value = held.start, held.prior_std = kHeld * held.scale;
-    constants.push_back(held);
-  }
 }
 
 // That of `names` among the watched constants which the logs contradict most, if any by more than
@@ -132,10 +76,11 @@ class WatchedFit {
 
   // Where nothing flies with the constants that nobody states as they are held, with one of them free.
   void begin(std::vector<FreeConstant> constants) {
+    for (const FreeConstant& c : constants) base_.push_back(c.name);
     if (is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_) && begins_with(kRotor)) return;
     std::vector<std::string> left;
     for (const std::string& name : {kRotor, kDeadTime})
-      if (is_in(watched_, name) && record_.signals.commands && !is_there(name, constants, vehicle_))
+      if (is_in(watched_, name) && can_show(name, record_.signals) && !is_there(name, constants, vehicle_))
         left.push_back(name);
     try {
       fit(theta_of(std::move(constants)));
@@ -163,7 +108,7 @@ class WatchedFit {
   }
 
   FittedFlight end() {
-    warn_of(found_, result_);
+    warn_of_found(found_, result_);
     return std::move(one_);
   }
 
@@ -186,7 +131,11 @@ class WatchedFit {
   std::unique_ptr<Theta> with(const std::vector<std::string>& more) const {
     std::vector<std::string> also = also_;
     also.insert(also.end(), more.begin(), more.end());
-    return theta_of(free_constants(vehicle_, p_, also));
+    std::vector<FreeConstant> all = free_constants(vehicle_, p_, also);
+    if (!record_.signals.commands)
+      std::erase_if(all,
+                    [&](const FreeConstant& c) { return !is_in(base_, c.name) && !is_in(also, c.name); });
+    return theta_of(std::move(all));
   }
 
   void fit(std::unique_ptr<Theta> theta) {
@@ -278,7 +227,7 @@ class WatchedFit {
   const std::vector<std::string>& also_;
   Result& result_;
   FlightFitOptions fit_options_;
-  std::vector<std::string> watched_, found_;
+  std::vector<std::string> watched_, found_, base_;
   FittedFlight one_;
   bool tried_alone_ = false;
   std::string unasked_;  // free from the beginning, with nothing that asked for it
