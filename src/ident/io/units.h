@@ -32,8 +32,8 @@ std::optional<double> unit_factor(std::string_view spelling, Dimension dimension
 /// The spellings of a dimension's units, for messages.
 std::string known_units(Dimension dimension);
 
-/// A header as name and unit: "Thrust (kgf)" is {"Thrust", "kgf"}; the unit is empty where none stands there. Digits
-/// in brackets right behind a name belong to it: "gyro_rad[0]".
+/// A header as name and unit: "Thrust (kgf)" is {"Thrust", "kgf"}; the unit is empty where none stands there.
+/// Digits in brackets right behind a name belong to it: "gyro_rad[0]".
 struct HeaderName {
   std::string name;
   std::optional<std::string> unit;
