@@ -108,13 +108,15 @@ TEST(Verdict, WithoutFlightToTryThemOnNoCauseIsNamed) {
   Case c({"rotor_drag"}, {"rotor_drag"});
   c.weighs({0}, 1.0);
   c.gap = {};
+  EXPECT_EQ(c.judged().status, "identified") << "nothing could be predicted, of flight that there was";
+  c.gap.held_out = false;
   const Judged nearest = c.judged();
   EXPECT_EQ(nearest.status, "unknown");
   EXPECT_TRUE(nearest.refused);
   EXPECT_EQ(nearest.confused_with, Names{"rotor_drag"});
   EXPECT_NE(nearest.sentence.find("too short"), std::string::npos) << nearest.sentence;
   Case none({"rotor_drag"}, {});
-  none.gap = {};
+  none.gap = {.held_out = false};
   EXPECT_EQ(none.judged().status, "none");
   EXPECT_NE(none.judged().sentence.find("too short"), std::string::npos) << none.judged().sentence;
 }

@@ -62,6 +62,14 @@ TEST(ForeignLog, DigitsInBracketsBehindANameAreNoUnit) {
   EXPECT_NEAR(log.delta[3][5], 0.5 + 0.01 * std::sin(1.0), 1e-3);
 }
 
+TEST(ForeignLog, TheUnitOneNeedsNoBlank) {
+  std::string text = some_flight(0);
+  text.replace(0, text.find('\n'), "t [ns],p,q,r,az,delta1[1],delta2(1),delta3 [1],delta4[-]");
+  const Written log("one.csv", text);
+  EXPECT_NEAR(read_flight_log(log.path(), testing::published_vehicle(), {}).delta[3][5],
+              0.5 + 0.01 * std::sin(1.0), 1e-3);
+}
+
 TEST(ForeignLog, SecondsSince1970CountFromTheBeginning) {
   const FlightLog log = read(1'700'000'000, "windows: [[1700000000.5, 1700000001.5]]\n");
   EXPECT_NEAR(log.t[123], 1.23, 1e-6);
@@ -72,6 +80,8 @@ TEST(ForeignLog, SecondsSince1970CountFromTheBeginning) {
   EXPECT_NEAR(log.windows[0][0], 0.5, 1e-6);
   EXPECT_NEAR(log.windows[0][1], 1.5, 1e-6);
   EXPECT_NEAR(read(1'700'000'000, "windows: [[0.5, 1.5]]\n").windows[0][0], 0.5, 1e-6);
+  const std::string before = "windows: [[1699999990, 1700000001.5]]\n";  // begins before the log does
+  EXPECT_NEAR(read(1'700'000'000, before).windows[0][1], 1.5, 1e-6);
   EXPECT_THROW(read(1'700'000'000, "windows: [[1700000007, 1700000008]]\n"), InputError);
   EXPECT_NEAR(read(86'000).t[0], 86'000, 1e-6);  // a day that a processor has been on
 }

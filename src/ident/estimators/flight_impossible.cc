@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "ident/core/format_number.h"
 
 namespace ident {
+
+void doubt_all(Result& result, std::initializer_list<std::string_view> names, const std::string& why) {
+  for (Parameter& p : result.parameters)
+    if (std::ranges::find(names, p.name) != names.end()) p.doubt(why);
+}
 
 bool is_before_its_command(const Parameter& p) { return p.name == "dead_time" && p.value + 2 * p.std < 0; }
 
@@ -20,11 +23,10 @@ void doubt_negative_dead_time(Result& result) {
   early->note = "negative: no motor turns before its command";
   // What is early makes up for what else is late: motors that are too slow go with it, and rotors whose
   // inertia is ahead of their drag.
-  const bool rotors = result.find("Jp") != nullptr;  // else what they do about yaw is done by others
-  for (Parameter& p : result.parameters)
-    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "Jp" ||
-        (!rotors && (p.name == "kQ" || p.name == "Jzz")))
-      p.doubt("goes with a negative dead_time, which no motor has");
+  constexpr const char* kWhy = "goes with a negative dead_time, which no motor has";
+  doubt_all(result, {"omega_m", "zeta_m", "Jp"}, kWhy);
+  if (!result.find("Jp"))
+    doubt_all(result, {"kQ", "Jzz"}, kWhy);  // what rotors do about yaw is done by these
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
   result.warn(
       "negative_dead_time",
@@ -36,9 +38,7 @@ void doubt_negative_dead_time(Result& result) {
 void doubt_negative_rotor_inertia(Result& result) {
   const Parameter* Jp = result.find("Jp");
   if (!Jp || !(Jp->value + 2 * Jp->std < 0)) return;
-  for (Parameter& p : result.parameters)
-    if (p.name == "Jp" || p.name == "Jzz" || p.name == "kQ")
-      p.doubt("goes with a negative Jp, which no rotor has");
+  doubt_all(result, {"Jp", "Jzz", "kQ"}, "goes with a negative Jp, which no rotor has");
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "rotor_inertia"; });  // says less
   result.warn("negative_rotor_inertia",
               "the vehicle turns with the rotors that speed up, not against them, and of yaw nothing certain "
@@ -53,9 +53,8 @@ void doubt_motors_without_effect(Result& result) {
   const double found = lag(zeta_m->value, omega_m->value),
                stated = lag(*zeta_m->prior_value, *omega_m->prior_value);
   if (!(found > kLong && found > kSlower * stated)) return;
-  for (Parameter& p : result.parameters)
-    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "dead_time" || p.name == "km")
-      p.doubt("motors as fitted hardly follow their commands");
+  doubt_all(result, {"omega_m", "zeta_m", "dead_time", "km"},
+            "motors as fitted hardly follow their commands");
   result.warn(
       "motors_without_effect",
       fmt::format("these logs fit best where rotors follow their commands after {} s, stated is {} s, and "
@@ -65,28 +64,20 @@ void doubt_motors_without_effect(Result& result) {
 }
 
 void doubt_coarse_commands(Result& result) {
-  if (!result.has_warning("coarse_commands")) return;
-  for (Parameter& p : result.parameters)
-    if (p.name == "omega_m" || p.name == "zeta_m" || p.name == "dead_time" || p.name == "Omega_0")
-      p.doubt("commands were logged in coarse steps");
+  if (result.has_warning("coarse_commands"))
+    doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Omega_0"}, "commands were logged in coarse steps");
 }
 
 void doubt_seldom_speeds(Result& result) {
-  static constexpr std::array<std::string_view, 8> kOfTurning = {"kQ",  "Jp",  "Jxx", "Jyy",
-                                                                 "Jzz", "Jxy", "Jxz", "Jyz"};
-  if (!result.has_warning("low_rate")) return;
-  for (Parameter& p : result.parameters)
-    if (std::ranges::find(kOfTurning, p.name) != kOfTurning.end())
-      p.doubt("what the rotors do between rows that far apart was not measured");
+  if (result.has_warning("low_rate"))
+    doubt_all(result, {"kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"},
+              "what the rotors do between rows that far apart was not measured");
 }
 
 void doubt_contradicted(Result& result) {
-  static constexpr std::array<std::string_view, 8> kDepend = {"kT",        "km",      "omega_m", "zeta_m",
-                                                              "dead_time", "Omega_0", "kQ",      "Jzz"};
-  if (!result.has_warning("contradicted")) return;
-  for (Parameter& p : result.parameters)
-    if (std::ranges::find(kDepend, p.name) != kDepend.end())
-      p.doubt("depends on a constant that the logs contradict");
+  if (result.has_warning("contradicted"))
+    doubt_all(result, {"kT", "km", "omega_m", "zeta_m", "dead_time", "Omega_0", "kQ", "Jzz"},
+              "depends on a constant that the logs contradict");
 }
 
 }  // namespace ident

@@ -1,9 +1,16 @@
 // Estimates that no vehicle has.
 #pragma once
 
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
 #include "ident/core/result.h"
 
 namespace ident {
+
+/// Those of these names that a result has are not known, for that reason.
+void doubt_all(Result& result, std::initializer_list<std::string_view> names, const std::string& why);
 
 /// A dead time that is negative beyond chance, which no motor has.
 bool is_before_its_command(const Parameter& p);

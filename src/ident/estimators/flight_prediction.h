@@ -47,10 +47,8 @@ struct GapClosed {
   double closed = kNaN;
   std::array<double, 2> ci95{kNaN, kNaN};
   double before = kNaN, after = kNaN, floor = kNaN;
+  bool held_out = true;  ///< there was flight to try a model on, whether or not one could predict it
 };
 GapClosed gap_closed(const std::vector<PredictionWindow>& before, const std::vector<PredictionWindow>& after);
-
-/// Whether flight was held out on which a model could be tried.
-inline bool was_tried(const GapClosed& gap) { return std::isfinite(gap.before); }
 
 }  // namespace ident

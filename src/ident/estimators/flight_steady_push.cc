@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
+
+#include "ident/estimators/flight_impossible.h"
 
 namespace ident {
 namespace {
@@ -74,18 +74,11 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, std::span<const
           "long: thrust does not go with the square of the command's speed (another curve, a battery that "
           "sags), a stated constant is wrong, or the model lacks an effect (try ident gap)",
           where, 100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
-  static constexpr std::array<std::string_view, 12> kByThrust = {
-      "m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"};
+  constexpr const char* kWhy = "thrust as fitted is not what the vehicle felt";
+  doubt_all(result, {"m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   // Where that much is missing, nothing that the fit says of the motors is theirs.
-  static constexpr std::array<std::string_view, 3> kOfMotors = {"omega_m", "zeta_m", "dead_time"};
   constexpr double kMuch = 0.2;  // of the weight
-  const bool much = std::abs(push.mean) > kMuch * gravity;
-  const auto is_in = [](const auto& names, const std::string& name) {
-    return std::ranges::find(names, name) != names.end();
-  };
-  for (Parameter& p : result.parameters)
-    if (is_in(kByThrust, p.name) || (much && is_in(kOfMotors, p.name)))
-      p.doubt("thrust as fitted is not what the vehicle felt");
+  if (std::abs(push.mean) > kMuch * gravity) doubt_all(result, {"omega_m", "zeta_m", "dead_time"}, kWhy);
 }
 
 }  // namespace ident

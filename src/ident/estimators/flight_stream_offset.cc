@@ -183,7 +183,7 @@ StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, do
   const auto near = static_cast<long>(windows.margin);
   StreamOffset found = best_about(arcs, windows, 0, near);
   if (const auto far = std::lround(farthest / interval); !std::isfinite(found.seconds) && far > near)
-    if (const StreamOffset rough = best_about(arcs, windows, 0, far); std::isfinite(rough.seconds))
+    if (const StreamOffset rough = best_about(arcs, windows, -far / 2, far / 2); std::isfinite(rough.seconds))
       found = best_about(arcs, windows, std::lround(rough.seconds), near);
   if (!std::isfinite(found.seconds)) return {};
   return {found.seconds * interval, found.std * interval};

@@ -21,7 +21,7 @@ struct StreamSides {
 };
 
 /// How much later the told side is than the seen one, by changes over `lag` s. Where no shift of 60 ms makes
-/// them agree, as of GPS, up to `farthest` s.
+/// them agree, as of GPS, up to `farthest` s later of the seen side.
 StreamOffset offset_of(const std::vector<StreamSides>& arcs, double interval, double lag,
                        double farthest = 0.0);
 

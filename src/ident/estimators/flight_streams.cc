@@ -25,6 +25,7 @@ constexpr double kShortTime = 0.03;  ///< s before and after over which an accel
 constexpr double kShortestOfRates = 1e-3, kShortestOfForce = 8e-3;
 /// s by which rotor speeds are later than the force that they make; earlier they are by any filter of that.
 constexpr double kShortestOfSpeeds = 4e-3;
+constexpr double kHalfSure = 2.0;      ///< standard deviations of what another sensor tells more sharply
 constexpr double kSureOfSpeeds = 3.0;  ///< standard deviations
 /// s by which an autopilot's filters make the sensors of its IMU late
 constexpr double kLongestFilter = 8e-3;
@@ -229,7 +230,7 @@ void move_force(const StreamOffsets& found, const FlightRecord& record, Moves& m
 void move_speeds(const StreamOffsets& found, double interval, Moves& moves) {
   StreamOffset speeds = found.speeds, moments = found.moments;
   speeds.seconds += moves.force, moments.seconds += moves.rates;
-  if (!std::isfinite(speeds.std)) return;
+  if (!(speeds.seconds > kHalfSure * speeds.std)) return;
   const bool by_moments = moments.std < speeds.std;
   const StreamOffset& late = by_moments ? moments : speeds;
   if (!(late.seconds > 0) || !late.matters(interval, kShortestOfSpeeds)) return;

@@ -77,10 +77,12 @@ class WatchedFit {
   // Where nothing flies with the constants that nobody states as they are held, with one of them free.
   void begin(std::vector<FreeConstant> constants) {
     for (const FreeConstant& c : constants) base_.push_back(c.name);
-    if (is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_) && begins_with(kRotor)) return;
+    const bool at_once = is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_);
+    if (at_once && begins_with(kRotor)) return;
     std::vector<std::string> left;
     for (const std::string& name : {kRotor, kDeadTime})
-      if (is_in(watched_, name) && can_show(name, record_.signals) && !is_there(name, constants, vehicle_))
+      if (is_in(watched_, name) && !(at_once && name == kRotor) && can_show(name, record_.signals) &&
+          !is_there(name, constants, vehicle_))
         left.push_back(name);
     try {
       fit(theta_of(std::move(constants)));

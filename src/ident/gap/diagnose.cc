@@ -139,7 +139,7 @@ Judged doubted_for_input(Judged verdict, const FlightRecord& record, const Searc
   const double without = small.empty() ? kNaN
                                        : refitted_error(search.base, record, held_out.record,
                                                         search.form.noise, without_floors(held_out.windows));
-  return with_noisy_input(std::move(verdict), loose, small, held_out.gap, without);
+  return with_noisy_input(std::move(verdict), loose, small, held_out.judged, without);
 }
 
 // A diagnosis of a flight that was entered, with what `begun` says of it. None where a first look would be
@@ -164,7 +164,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   if (options.progress) options.progress(0.9, "held-out flight");
 
   const Findings seen = findings_of(record, search);
-  const GapClosed& gap = seen.held_out.gap;
+  const GapClosed& gap = seen.held_out.judged;
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   state_constants(result, search, vehicle, p, hover);
   Judged verdict = judge(search, gap, seen.rival, seen.lines, seen.jumps, result.parameters);

@@ -42,6 +42,8 @@ std::vector<std::string> causes_of(const Json& found) {
 }
 
 std::string how_far(const Json& gap, const std::string& causes) {
+  if (!std::isfinite(number(gap["before"])))
+    return "No held-out flight could be predicted half a second ahead.";
   const std::string with = causes.empty() ? "its constants refitted" : causes + " in it";
   std::string text = fmt::format(
       "Half a second ahead the model as given misses by {} times the sensor noise; with {}, by {} times. A "

@@ -1,6 +1,8 @@
 // Predictions of held-out flight by the model as given and by the model found.
 #include "ident/gap/held_out_gap.h"
 
+#include <algorithm>
+
 #include "ident/core/json_number.h"
 #include "ident/gap/cause_alone.h"
 
@@ -13,6 +15,24 @@ nlohmann::ordered_json as_json(const GapClosed& gap) {
           {"noise_floor", number_or_null(gap.floor)},
           {"closed", number_or_null(gap.closed)},
           {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}}};
+}
+
+constexpr double kJudgedHorizon = 0.5;  // s
+
+bool has_room(const HeldOutGap& all, double horizon) {
+  const double least = all.windows.history + horizon;
+  return std::ranges::any_of(all.record.arcs,
+                             [&](const FlightArc& arc) { return arc.t.back() - arc.t.front() > least; });
+}
+
+GapClosed judged_of(const HeldOutGap& all) {
+  constexpr std::size_t kFewWindows = 10;
+  GapClosed out = all.gap;
+  if (has_room(all, kJudgedHorizon)) return out;
+  const bool pieces = all.windows.horizons[0] < kJudgedHorizon && all.before[0].size() >= kFewWindows;
+  if (pieces) return all.horizons[0];
+  out.held_out = false;
+  return out;
 }
 
 }  // namespace
@@ -30,8 +50,9 @@ HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search) 
   all.after = predict_windows(all.record, *search.best.theta, all.found, noise, all.windows);
   for (std::size_t h = 0; h < all.windows.horizons.size(); ++h) {
     all.horizons.push_back(gap_closed(all.before[h], all.after[h]));
-    if (all.windows.horizons[h] == 0.5) all.gap = all.horizons.back();
+    if (all.windows.horizons[h] == kJudgedHorizon) all.gap = all.horizons.back();
   }
+  all.judged = judged_of(all);
   return all;
 }
 

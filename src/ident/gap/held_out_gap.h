@@ -16,7 +16,8 @@ struct HeldOutGap {
   PredictionOptions windows;      ///< over which both predict
   std::vector<std::vector<PredictionWindow>> before, after;  ///< a list for each horizon
   std::vector<GapClosed> horizons;
-  GapClosed gap;  ///< over 0.5 s
+  GapClosed gap;     ///< over 0.5 s
+  GapClosed judged;  ///< the same; over a shorter time where a flight in pieces has none as long
 };
 HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search);
 

@@ -83,9 +83,10 @@ Judged nothing_found(const GapClosed& gap, const Rival& rival, const std::vector
     out = {.status = "none",
            .sentence =
                "The model explains these logs down to " + remaining_noise(gap) + "; no cause stands out."};
-  if (out.status == "none" && !was_tried(gap))
+  if (out.status == "none" && !gap.held_out)
     out.sentence +=
-        " They are too short for flight to be held out: what they do not show may well be there, up to the "
+        " They, or their pieces, are too short for flight to be held out: what they do not show may well be "
+        "there, up to the "
         "sizes given.";
   if (out.status == "none" && about_z != jumps.end())
     out.sentence +=

@@ -109,11 +109,12 @@ Judged judge_all(const SearchResult& search, const GapClosed& gap, const Rival& 
     if (out.status == "unknown") out.confused_with = likely_names(search);
     return out;
   }
-  if (!was_tried(gap))
+  if (!gap.held_out)
     return refusal(
-        fmt::format("{} would explain these logs, but they are too short for flight to be held out "
-                    "on which that could be tried: fly for longer, 40 s or more.",
-                    fmt::join(names, " with ")),
+        fmt::format(
+            "{} would explain these logs, but they, or their pieces, are too short for flight to be held out "
+            "on which that could be tried: fly for longer, 40 s or more.",
+            fmt::join(names, " with ")),
         names);
   const double remaining = std::isfinite(gap.closed) ? std::max(0.0, 1 - gap.closed) : kNaN;
   Judged out;

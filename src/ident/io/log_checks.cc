@@ -178,9 +178,10 @@ void check_specific_force(FlightLog& log, long header_line, double gravity) {
   if (size < 0.3 * gravity || (size < 0.7 * gravity && std::abs(down) < 0.2 * gravity))
     log.warnings.push_back(
         {"gravity_missing",
-         fmt::format("{}: ax, ay, az: their size is {:.3g} m/s^2 mostly, far below gravity: an "
-                     "acceleration with gravity removed is no specific force",
-                     log.file, size)});
+         fmt::format(
+             "{}: ax, ay, az: their size is {:.3g} m/s^2 mostly, and {:.3g} along z, far from gravity: an "
+             "acceleration with gravity removed is no specific force",
+             log.file, size, down)});
   else if (down > 0.5 * gravity)
     throw InputError(
         log.file, header_line, "az",

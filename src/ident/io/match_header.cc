@@ -40,7 +40,9 @@ class Matcher {
 
   std::optional<ChosenColumn> choose(const Signal& signal) {
     for (const Alias& spelling : spellings(signal)) {
-      const auto at = find(spelling.header);
+      auto at = find(spelling.header);
+      if (!at && unit_factor("1", signal.dimension))
+        at = find(spelling.header + "[1]");  // that unit, no index
       if (!at) continue;
       used_.insert(*at);
       const double unit =

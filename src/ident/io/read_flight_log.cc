@@ -241,9 +241,10 @@ class Builder {
 
   // In the time of the log, or from its beginning where that is what times count from.
   void take_windows() {
+    const auto meets = [&](double from, double to) { return from <= log_.t.back() && to >= log_.t.front(); };
     if (first_ != 0)
       for (auto& window : map_.windows)
-        if (std::abs(window[0]) >= std::abs(first_)) window[0] -= first_, window[1] -= first_;
+        if (!meets(window[0], window[1])) window[0] -= first_, window[1] -= first_;
     for (const auto& window : map_.windows) {
       const double from = window[0], to = window[1];
       const auto rows = std::ranges::count_if(log_.t, [&](double t) { return t >= from && t <= to; });

@@ -168,7 +168,7 @@ HeaderName split_header(std::string_view header) {
     const std::size_t at = header.rfind(open);
     if (at == std::string_view::npos) continue;
     const std::string_view unit = trimmed(header.substr(at + 1, header.size() - at - 2));
-    if (is_index(unit) && at > 0 && header[at - 1] != ' ') continue;
+    if (open == '[' && is_index(unit) && at > 0 && header[at - 1] != ' ') continue;
     HeaderName name{std::string(trimmed(header.substr(0, at))), std::nullopt};
     if (!unit.empty()) name.unit = std::string(unit);
     return name;
