@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "ident/estimators/flight_entry.h"
@@ -263,6 +265,22 @@ TEST(FlightSelfTest, ThrustFarFromTheWeightIsNamed) {
     EXPECT_TRUE(names(found, "thrust_weight")) << in_words(found);
     EXPECT_NE(disqualified(found), "");
   }
+}
+
+TEST(FlightSelfTest, SpeedsInAnotherUnitAreNamed) {
+  FlightLog log = clean_log(quad());
+  log.delta.clear();
+  EXPECT_FALSE(names(findings(quad(), log), "thrust_weight"));
+  const auto scaled = [&](double factor) {
+    FlightLog other = log;
+    for (auto& column : other.Omega)
+      for (double& x : column) x *= factor;
+    return findings(quad(), other);
+  };
+  constexpr double kPerMinute = 60 / (2 * std::numbers::pi);
+  EXPECT_TRUE(names(scaled(kPerMinute), "thrust_weight", "turns a minute that are taken for rad/s"));
+  EXPECT_TRUE(names(scaled(1 / kPerMinute), "thrust_weight", "rad/s that are taken for turns a minute"));
+  EXPECT_FALSE(names(scaled(1.4), "thrust_weight"));
 }
 
 }  // namespace

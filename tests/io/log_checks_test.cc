@@ -5,7 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
@@ -183,6 +186,39 @@ TEST(LogChecks, OfQuaternionsTheRatesHaveTheWrongUnit) {
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find("p, q, r") != std::string::npos, quaternions) << error.what();
     }
+}
+
+std::string refused(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(LogChecks, AUnitOfTimeThatMakesRowsComeAsInNoLogIsRefused) {
+  const auto spread = [](double factor, bool stated) {
+    FlightLog log = hover();
+    for (double& t : log.t) t *= factor;
+    return refused([&] { check_time(log, 7, stated); });
+  };
+  EXPECT_EQ(spread(1, true), "");
+  EXPECT_EQ(spread(0.1, true), "");
+  EXPECT_NE(spread(1000, true).find("rows come 10 s apart by the unit that was stated"), std::string::npos)
+      << spread(1000, true);
+  EXPECT_NE(spread(1e-3, false).find(":7: t: rows come 1e-05 s apart"), std::string::npos)
+      << spread(1e-3, false);
+}
+
+TEST(LogChecks, AVoltageInAnotherUnitIsRefused) {
+  FlightLog log = hover();
+  for (const auto& [volts, right] : {std::pair(15.1, true), {9.0, true}, {1.51, false}, {15100, false}}) {
+    log.vbat.assign(log.rows(), volts);
+    EXPECT_EQ(refused([&] { check_voltage(log, 7, 16.0); }).empty(), right) << volts;
+  }
+  log.vbat.clear();
+  EXPECT_EQ(refused([&] { check_voltage(log, 7, 16.0); }), "");
 }
 
 }  // namespace

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_commands_agree.h"
 #include "ident/estimators/flight_input_doubt.h"
+#include "ident/estimators/flight_jitter.h"
+#include "ident/estimators/flight_seldom_commands.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_streams.h"
 #include "ident/estimators/flight_vibration.h"
@@ -25,12 +28,27 @@ double mean_of_used(const std::vector<double>& column) {
   return n > 0 ? sum / n : kNaN;
 }
 
+// Whether the commands of a log are seldom, and speeds came at least twice as often in all that are like it.
+bool speeds_tell_more(std::span<const FlightLog> logs) {
+  const auto seldom = [](const FlightLog& log) { return commands_are_seldom(log); };
+  return std::ranges::any_of(logs, seldom) && std::ranges::all_of(logs, [&](const FlightLog& log) {
+           return !seldom(log) || 2 * time_between(log.t, log.Omega) < time_between(log.t, log.delta);
+         });
+}
+
 // Commands of all logs or of none: where those of one are missing, or were left out as not the right ones,
-// rotor speeds serve as input for all. Empty where nothing has to be changed.
+// rotor speeds serve as input for all; and where commands are seldom and speeds are not. Empty where nothing
+// has to be changed.
 std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::vector<Warning>& warnings) {
   if (std::ranges::none_of(logs, &FlightLog::has_commands)) return {};
   const bool speeds = std::ranges::all_of(logs, &FlightLog::has_rotor_speeds);
   std::vector<bool> commands;
+  if (speeds && speeds_tell_more(logs)) {
+    warnings.push_back({"seldom_commands",
+                        "commands come at less than 49 Hz, rotor speeds twice as often or more: the "
+                        "speeds are taken, and nothing is said of the motors"});
+    return without_commands(logs);
+  }
   for (const FlightLog& log : logs) {
     const bool contradict = log.has_commands() && commands_contradict_speeds(log);
     commands.push_back(log.has_commands() && !contradict);
@@ -45,8 +63,6 @@ std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::ve
   }
   const auto commanded = std::ranges::count(commands, true);
   if (commanded == std::ssize(logs) || !speeds) return {};
-  std::vector<FlightLog> out(logs.begin(), logs.end());
-  for (FlightLog& log : out) log.delta.clear();
   const auto without = logs.begin() + (std::ranges::find(commands, false) - commands.begin());
   if (commanded > 0)
     warnings.push_back(
@@ -54,7 +70,15 @@ std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::ve
          fmt::format("{} has no usable commands: rotor speeds serve as input for all logs, and of "
                      "the motors nothing is said; give the others alone for that",
                      without->file)});
-  return out;
+  return without_commands(logs);
+}
+
+std::vector<Warning> found_by_reading(std::span<const FlightLog> logs, const std::string& code) {
+  std::vector<Warning> found;
+  for (const FlightLog& log : logs)
+    std::ranges::copy_if(log.warnings, std::back_inserter(found),
+                         [&](const Warning& w) { return w.code == code; });
+  return found;
 }
 
 }  // namespace
@@ -120,6 +144,8 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
                 "no commands: measured rotor speeds are the input, smoothed; what depends on the smoothing "
                 "widens the intervals, and a diagnosis can hardly tell their noise from a gap: log the "
                 "commands too");
+  entry.tested = found_by_reading(logs, "wrong_frame");
+  if (!entry.tested.empty()) return entry;  // and told
   entry.tested = self_test(entry.record, logs, vehicle, entry.p);
   tell(entry.tested);
   return entry;

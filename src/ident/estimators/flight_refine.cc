@@ -19,6 +19,7 @@
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_profile.h"
 #include "ident/estimators/flight_residuals.h"
+#include "ident/estimators/flight_seldom_commands.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_steady_push.h"
 #include "ident/estimators/flight_steady_turn.h"
@@ -216,6 +217,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   doubt_motors_without_effect(result);
   doubt_coarse_commands(result);
   if (!record.signals.commands) doubt_seldom_speeds(result);
+  doubt_seldom_commands(result, record, logs);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "ident/core/parallel.h"
+#include "ident/estimators/flight_seldom_commands.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -41,27 +43,45 @@ void test_excitation(const RotorAgreement& rotors, std::vector<Warning>& finding
                                     fmt::join(still, ", "))});
 }
 
-/// Thrust of the rotors as stated over the weight, in the mean of the flight.
+/// Thrust of the rotors as stated over the weight, in the mean of the flight; by measured speeds where these
+/// are the input.
 double thrust_over_weight(const FlightRecord& record, double gravity, std::span<const double> p) {
   double sum = 0, rows = 0;
   for (const FlightArc& arc : record.arcs) {
-    for (const MotorState<double>& motor : arc.motors) sum += std::pow(motor.Omega, 2);
+    if (record.signals.commands)
+      for (const MotorState<double>& motor : arc.motors) sum += std::pow(motor.Omega, 2);
+    else
+      for (const std::vector<double>& speeds : arc.inputs->Omega)
+        for (const double Omega : speeds) sum += std::pow(Omega, 2);
     rows += static_cast<double>(arc.rows());
   }
   return p[param::kT] * sum / (rows * p[param::m] * gravity);
 }
 
+/// What speeds in another unit than rad/s look like: thrust goes with their square.
+std::string unit_of_speeds(double ratio) {
+  constexpr double kPerMinute = 60 / (2 * std::numbers::pi), kNear = 1.25;
+  const auto is = [&](double factor) {
+    const double off = std::sqrt(ratio) / factor;
+    return off > 1 / kNear && off < kNear;
+  };
+  if (is(1 / kPerMinute)) return "; so would speeds in rad/s that are taken for turns a minute";
+  if (is(kPerMinute)) return "; so would speeds in turns a minute that are taken for rad/s";
+  return "";
+}
+
 void test_weight(const FlightRecord& record, double gravity, std::span<const double> p,
                  std::vector<Warning>& findings) {
-  if (!record.signals.commands) return;  // measured speeds alone are no state of a row
   const double ratio = thrust_over_weight(record, gravity, p);
-  if (ratio > 1 / kFarOff && ratio < kFarOff) return;
+  if (!(ratio > 0) || (ratio > 1 / kFarOff && ratio < kFarOff)) return;
+  const bool commands = record.signals.commands;
   findings.push_back(
       {"thrust_weight",
-       fmt::format("the rotors as stated lift {:.2g} times the weight in the mean of these logs: the mass "
-                   "or kT or km is in other units, the commands are not what they are said to be, or the "
-                   "vehicle stood on the ground",
-                   ratio)});
+       fmt::format(
+           "the rotors as stated lift {:.2g} times the weight in the mean of these logs: the mass or "
+           "kT{} in other units, {} not what they are said to be, or the vehicle stood on the ground{}",
+           ratio, commands ? " or km is" : " is", commands ? "the commands are" : "the speeds are",
+           commands ? "" : unit_of_speeds(ratio))});
 }
 
 /// Rows in flight of which a command stands at its limit.
@@ -124,6 +144,7 @@ void test_health(const FlightRecord& record, std::span<const FlightLog> logs,
         {"low_rate", fmt::format("rows come at {:.3g} Hz: motor lag and fast turns pass between "
                                  "them; log at 100 Hz or more",
                                  1 / record.interval)});
+  if (const auto seldom = seldom_commands(record, logs)) findings.push_back(*seldom);
 }
 
 }  // namespace

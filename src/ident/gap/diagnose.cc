@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "ident/core/error.h"
@@ -19,6 +20,7 @@
 #include "ident/estimators/flight_jitter.h"
 #include "ident/estimators/flight_logs_agree.h"
 #include "ident/estimators/flight_prediction.h"
+#include "ident/estimators/flight_seldom_commands.h"
 #include "ident/estimators/flight_self_test.h"
 #include "ident/estimators/flight_trim.h"
 #include "ident/estimators/flight_voltage.h"
@@ -33,6 +35,7 @@
 #include "ident/gap/out_of_balance.h"
 #include "ident/gap/residual_wrench.h"
 #include "ident/gap/search_details.h"
+#include "ident/gap/seldom_input.h"
 #include "ident/gap/trust.h"
 #include "ident/gap/verdict.h"
 
@@ -174,7 +177,8 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   if (hover) verdict = in_hover(std::move(verdict));
   if (has_noisy_input(record))
     verdict = doubted_for_input(std::move(verdict), record, search, seen.held_out, loose);
-  const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover;
+  const std::optional<double> hidden = hides_motion(record, logs);
+  const bool doubtful = verdict.status == "unknown" && wrong.empty() && !hover && !hidden;
   if (doubtful && look == Look::first && gusts_may_be_all(record, search, gap)) return std::nullopt;
   verdict = with_vibration(std::move(verdict), vibration);
   if (jitter.matters()) {
@@ -182,6 +186,7 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
         jitter.warning("no cause of the catalogue does this, and it hides what is small"));
     verdict = with_jitter(std::move(verdict));
   }
+  if (hidden) verdict = with_seldom_commands(std::move(verdict), *hidden);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   warn_of_battery(result, verdict, vehicle, logs);
 

@@ -16,12 +16,14 @@
 namespace ident {
 namespace {
 
-constexpr double kHeldShare = 0.5;    // of the rows that repeat the row before: then it is no new sample
-constexpr double kFrozen = 1.0;       // s at one value of a sensor that else changes with every row
-constexpr double kChanges = 0.9;      // of its rows
-constexpr double kSlowestLog = 0.5;   // s between rows; slower is a log in other units, or of no use
-constexpr double kLongGap = 10.0;     // times the usual step
-constexpr double kShortestGap = 0.1;  // s
+constexpr double kHeldShare = 0.5;      // of the rows that repeat the row before: then it is no new sample
+constexpr double kFrozen = 1.0;         // s at one value of a sensor that else changes with every row
+constexpr double kChanges = 0.9;        // of its rows
+constexpr double kSlowestLog = 0.5;     // s between rows; slower is a log in other units, or of no use
+constexpr double kSlowestStated = 5.0;  // the same where the unit was stated
+constexpr double kFastestLog = 2e-5;    // s between rows in the mean: no log has 50 000 a second
+constexpr double kLongGap = 10.0;       // times the usual step
+constexpr double kShortestGap = 0.1;    // s
 
 /// Whether a column holds noise: its second differences then change sign from row to row more often than not.
 bool is_noisy(const std::vector<double>& column, const std::vector<std::size_t>& rows) {
@@ -154,6 +156,13 @@ void check_time(FlightLog& log, long header_line, bool unit_stated) {
         fmt::format("the usual step of t is {:.4g}: if that is not seconds, name the unit in the header, "
                     "as in 't [ms]'",
                     *usual));
+  const double mean = (log.t.back() - log.t.front()) / static_cast<double>(steps.size());
+  if (*usual > kSlowestStated || mean < kFastestLog)
+    throw InputError(
+        log.file, header_line, "t",
+        fmt::format("rows come {:.3g} s apart{}, and no flight is logged like that: is it in "
+                    "another one (s, ms, us, ns)?",
+                    std::max(*usual, mean), unit_stated ? " by the unit that was stated" : ", if t is in s"));
   const double limit = std::max(kShortestGap, kLongGap * *usual);
   const auto gaps = std::ranges::count_if(steps, [&](double step) { return step > limit; });
   if (gaps == 0) return;
@@ -161,6 +170,17 @@ void check_time(FlightLog& log, long header_line, bool unit_stated) {
   log.warnings.push_back(
       {"time_gap", fmt::format("{}: t: {} gaps; the longest is {:.3g} s at t = {:.6g} s", log.file, gaps,
                                *longest, log.t[static_cast<std::size_t>(longest - steps.begin())])});
+}
+
+void check_voltage(const FlightLog& log, long header_line, double voltage_of_km) {
+  constexpr double kLeast = 0.4, kMost = 2.0;  // of it: no battery flies with less, or has more
+  const double usual = middle_of(log.vbat).value_or(voltage_of_km);
+  if (usual > kLeast * voltage_of_km && usual < kMost * voltage_of_km) return;
+  throw InputError(log.file, header_line, "vbat",
+                   fmt::format("is {:.3g} V mostly, and battery_voltage of the vehicle file {:.3g} V: one of "
+                               "them is in another unit, or of another battery; without vbat the log can be "
+                               "used as it is",
+                               usual, voltage_of_km));
 }
 
 void check_specific_force(FlightLog& log, long header_line, double gravity) {

@@ -41,13 +41,16 @@ struct NamedSensor {
 /// Tells the rates of the sensors in one notice, those of equal rate together.
 void tell_rates(FlightLog& log, const std::vector<NamedSensor>& sensors);
 
-/// Throws InputError where time is in another unit than s (`unit_stated`: the user said which); warns of
-/// gaps.
+/// Throws InputError where time is in another unit than s, or than the one the user said (`unit_stated`);
+/// warns of gaps.
 void check_time(FlightLog& log, long header_line, bool unit_stated);
 
 /// Throws InputError where specific force is in g, or where its sign belongs to another body frame; warns
 /// where gravity is missing from it.
 void check_specific_force(FlightLog& log, long header_line, double gravity);
+
+/// Throws InputError where the battery shows a voltage in another unit than that at which km holds.
+void check_voltage(const FlightLog& log, long header_line, double voltage_of_km);
 
 /// Throws InputError where rates disagree with the attitude by the factor of degrees to radians;
 /// `quaternions` have no unit that could be wrong.

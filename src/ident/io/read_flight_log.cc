@@ -11,6 +11,7 @@
 #include "ident/io/log_checks.h"
 #include "ident/io/log_columns.h"
 #include "ident/io/log_jumps.h"
+#include "ident/io/log_quaternion.h"
 #include "ident/io/log_signals.h"
 #include "ident/io/log_spikes.h"
 #include "ident/io/table_checks.h"
@@ -88,10 +89,12 @@ class Builder {
     log_.v_W = take_vector({"vx", "vy", "vz"});
     log_.q_WB = take_attitude(table_, log_);
     log_.vbat = column("vbat");
+    if (vehicle_.battery_voltage) check_voltage(log_, columns_.header_line, *vehicle_.battery_voltage);
     log_.current = column("current");
     check_sensors();
     for (const Sensor& sensor : {Sensor{"attitude", log_.q_WB}, {"x y z", log_.x_W}, {"vx vy vz", log_.v_W}})
       if (!sensor.components.front().empty()) split_at_jumps(log_, sensor.components, sensor.name);
+    if (table_.find("qw")) check_quaternion(log_, columns_.header_line);
     turn_axes();
     judge();
     take_windows();
