@@ -107,7 +107,7 @@ std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const F
   assume("kT", weight / (rotors * speed * speed), "hover at the mean rotor speed");
   assume("kQ", 0.015 * std::max(arm / 0.15, 0.3) * start.value("kT"), "a usual ratio to kT");
   if (std::isfinite(level)) assume("km", speed / level, "hover at the mean command");
-  assume("omega_m", 20.0, "a usual motor");
+  assume("omega_m", 20.0 * (start.has("zeta_m") ? start.value("zeta_m") : 1.0), "a usual motor's lag, 0.1 s");
   const double J = start.value("m") * std::pow(0.4 * arm, 2);
   assume("Jxx", J, "mass within 0.4 arm lengths");
   assume("Jyy", J, "mass within 0.4 arm lengths");

@@ -11,6 +11,7 @@
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_entry.h"
+#include "ident/estimators/flight_first_order.h"
 #include "ident/estimators/flight_hover.h"
 #include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_inertia.h"
@@ -116,6 +117,22 @@ Result refined_by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs
   return result;
 }
 
+// The same with a damping that makes motors of first order, so that what is known of them can be stored.
+Result refined_as_first_order(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                              const RefineOptions& options, const MotorLag& lag) {
+  Result result = refine_flight(with_first_order_motors(vehicle, lag), logs, options);
+  if (const auto zeta_m = std::ranges::find(result.parameters, "zeta_m", &Parameter::name);
+      zeta_m != result.parameters.end()) {
+    zeta_m->prior_value.reset(), zeta_m->prior_std.reset(), zeta_m->pull.reset();
+    zeta_m->note = "held near 50: motors of first order";
+  }
+  result.warn("first_order_motors",
+              fmt::format("rotors follow their commands as of first order, {} s late ({} s): only that lag, "
+                          "2 zeta_m/omega_m, can be told, and zeta_m is held near 50",
+                          format_number(lag.seconds, 3), format_number(lag.std, 1)));
+  return result;
+}
+
 // Whether what was fitted predicts other flight, beside the constants as stated. Frees the smoother of the
 // fit, the largest thing in memory.
 void validate(Result& result, const FlightRecord& record, const Theta& theta, FlightFit& fit, Shown shown) {
@@ -201,6 +218,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);
   result.parameters = flight_parameters(theta, body, "flightlog");
+  if (const auto lag = first_order_lag(vehicle, theta, fit, result.parameters)) {
+    fit.smoother.reset();
+    return refined_as_first_order(vehicle, logs, options, *lag);
+  }
   as_before_flight(result.parameters, known, held);
   result.prior_correlation =
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });

@@ -17,7 +17,7 @@ namespace ident {
 namespace {
 
 constexpr double kHeldShare = 0.5;      // of the rows that repeat the row before: then it is no new sample
-constexpr double kFrozen = 1.0;         // s at one value of a sensor that else changes with every row
+constexpr double kFrozen = 0.15;        // s at one value of a sensor that else changes with every row
 constexpr double kChanges = 0.9;        // of its rows
 constexpr double kSlowestLog = 0.5;     // s between rows; slower is a log in other units, or of no use
 constexpr double kSlowestStated = 5.0;  // the same where the unit was stated

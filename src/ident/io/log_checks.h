@@ -20,8 +20,8 @@ void drop_constant(FlightLog& log, Components sensor, const std::string& name);
 /// Makes NaN what a log repeats between two samples of a slower sensor (warning `held_samples`).
 void drop_held(FlightLog& log, Components sensor, const std::string& name);
 
-/// Makes NaN where a sensor that else changes with every row stands still for a second or more while another
-/// one does not (warning `frozen_signal`).
+/// Makes NaN where a sensor that else changes with every row stands still for 0.15 s or more, and 20 rows,
+/// while another one does not (warning `frozen_signal`).
 void drop_frozen(FlightLog& log, Components sensor, const std::string& name);
 
 /// Rotor speeds as sizes (warning `rotor_speed_sign` where some were negative), short drop-outs to zero as
