@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/math.h"
+#include "ident/estimators/flight_command_history.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -17,7 +18,7 @@ constexpr double kPushOver = 0.5;      ///< s: so short a time below it is flown
 constexpr double kLiftOff = 1.0;       ///< s after the ground, and before it, in which the ground may push
 // With rows the commands are missing: so many steps without one, at least so many seconds, end an arc.
 constexpr double kMissedRows = 5.0, kShortestGap = 0.03;
-constexpr double kEnoughLeft = 0.7;  // of the flight, in such pieces
+constexpr double kEnoughLeft = 0.3;  // of the flight, in such pieces
 
 // Collective per row: mean command, or mean squared rotor speed.
 std::vector<double> collective(const FlightLog& log) {
@@ -95,18 +96,6 @@ Pieces pieces(const FlightLog& log, std::vector<bool> fly, double gap, double hi
     return log.t[p.second - 1] - log.t[p.first] < 0.3 || p.second - p.first < 8;
   });
   return out;
-}
-
-// Between rows that hold a command: messages of several sensors come in rows of their own.
-double usual_step(const FlightLog& log) {
-  std::vector<double> steps;
-  double last = kNaN;
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    if (std::ranges::none_of(log.delta, [&](const auto& c) { return std::isfinite(c[i]); })) continue;
-    if (std::isfinite(last)) steps.push_back(log.t[i] - last);
-    last = log.t[i];
-  }
-  return median(steps);
 }
 
 double seconds_of(const FlightLog& log, const Pieces& all) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/estimators/flight_command_history.h"
 #include "ident/estimators/flight_pieces.h"
 #include "ident/estimators/flight_record_start.h"
 #include "ident/estimators/flight_slow_errors.h"
@@ -17,6 +18,7 @@
 namespace ident {
 namespace {
 
+constexpr double kLongestDelay = 1.0;  ///< s of commands before a flight that may still be on their way
 constexpr double kHistory = 0.05;  ///< s of commands beyond the stated dead time that a flight starts with
 
 Signals signals_of(std::span<const FlightLog> logs) {
@@ -83,13 +85,7 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
   FlightInputs inputs;
   inputs.t0 = log.t.front();
   if (log.has_commands()) {
-    for (const auto& column : log.delta) {
-      std::vector<double> t, d;
-      for (std::size_t i = 0; i < log.rows(); ++i)
-        if (std::isfinite(column[i])) t.push_back(log.t[i]), d.push_back(column[i]);
-      if (t.empty()) t = {log.t.front()}, d = {0.0};
-      inputs.delta.emplace_back(std::move(t), std::move(d));
-    }
+    inputs.delta = command_history(log, arc.t.front() - kLongestDelay, arc.t.back());
     for (std::size_t n = 0; n < log.Omega.size() && n < vehicle.rotors.size(); ++n)
       put(log.Omega[n], kRotorChannel + static_cast<int>(n));
   }

@@ -160,6 +160,64 @@ std::string verdict(const Result& result, double seconds) {
                          : "");
 }
 
+void warn_of_filter_lag(Result& result, const Signals& logged) {
+  if (!filter_lag_is_open(result, logged) || result.find("dead_time")) return;
+  result.warn(
+      "filter_lag",
+      "rates and specific force were filtered, and without attitude nothing tells how late that made "
+      "them: it counts as lag of the motors, which comes out longer by that; '--free dead_time' takes "
+      "a delay out of it");
+}
+
+// What a fit refers to; `body` is the nearest with an inertia that a body can have.
+struct Refined {
+  const Vehicle& vehicle;
+  std::span<const FlightLog> logs;
+  const FlightRecord& record;
+  const Theta& theta;
+  const FlightFit &fit, &body;
+};
+
+// Findings about the fit, and what does not count as known because of them.
+void judge(Result& result, const Refined& refined, const SteadyPush& push, std::vector<Warning>& tested) {
+  const auto& [vehicle, logs, record, theta, fit, body] = refined;
+  for (const Warning& w : logs_agree(record, logs, theta, fit))
+    result.warnings.push_back(w), tested.push_back(w);
+  warn_of_steady_push(result, push, logs, vehicle.g);
+  if (disqualified(tested).empty())
+    warn_of_steady_turn(result, steady_turn(record, theta, fit), record, logs);
+  if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
+  doubt_contradicted(result);
+  doubt_motors_without_effect(result);
+  doubt_coarse_commands(result);
+  if (!record.signals.commands) doubt_seldom_speeds(result);
+  doubt_seldom_commands(result, record, logs);
+  if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
+  warn_about(result, theta, fit);
+  warn_of_filter_lag(result, record.signals);
+  warn_of_inertia(result, theta, fit);
+  warn_of_correlated(result);
+}
+
+// Numbers of the fit, tables and pictures.
+void show(Result& result, const Refined& refined, const SteadyPush& push, const Vibration& vibration,
+          Shown shown) {
+  const auto& [vehicle, logs, record, theta, fit, body] = refined;
+  result.fit = as_json(record, fit);
+  std::vector<ThrustAt> thrust;
+  if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
+  if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
+  if (shown != Shown::numbers) {
+    result.sections.push_back(data_health(record, logs, fit.noise, vibration));
+    if (!thrust.empty()) result.sections.push_back(thrust_section(thrust));
+    result.sections.push_back(flight_residuals(record, fit));
+    result.sections.push_back(outside_accelerations(record, fit));
+  }
+  if (shown == Shown::pictures)
+    std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
+                      std::back_inserter(result.sections));
+}
+
 }  // namespace
 
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
@@ -176,15 +234,6 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
       text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
     result.warn("not_identifiable", text);
   }
-}
-
-void warn_of_filter_lag(Result& result, const Signals& logged) {
-  if (!filter_lag_is_open(result, logged) || result.find("dead_time")) return;
-  result.warn(
-      "filter_lag",
-      "rates and specific force were filtered, and without attitude nothing tells how late that made "
-      "them: it counts as lag of the motors, which comes out longer by that; '--free dead_time' takes "
-      "a delay out of it");
 }
 
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
@@ -227,37 +276,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   result.correlation = flight_correlation(theta, fit.covariance);
 
-  for (const Warning& w : logs_agree(record, logs, theta, fit))
-    result.warnings.push_back(w), tested.push_back(w);
+  const Refined refined{vehicle, logs, record, theta, fit, body};
   const SteadyPush push = steady_push(record, fit);
-  warn_of_steady_push(result, push, logs, vehicle.g);
-  if (disqualified(tested).empty())
-    warn_of_steady_turn(result, steady_turn(record, theta, fit), record, logs);
-  if (vehicle.signs == Signs::first_principles) doubt_negative_rotor_inertia(result);
-  doubt_contradicted(result);
-  doubt_motors_without_effect(result);
-  doubt_coarse_commands(result);
-  if (!record.signals.commands) doubt_seldom_speeds(result);
-  doubt_seldom_commands(result, record, logs);
-  if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
-  warn_about(result, theta, fit);
-  warn_of_filter_lag(result, record.signals);
-  warn_of_inertia(result, theta, fit);
-  warn_of_correlated(result);
-
-  result.fit = as_json(record, fit);
-  std::vector<ThrustAt> thrust;
-  if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
-  if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
-  if (options.shown != Shown::numbers) {
-    result.sections.push_back(data_health(record, logs, fit.noise, vibration));
-    if (!thrust.empty()) result.sections.push_back(thrust_section(thrust));
-    result.sections.push_back(flight_residuals(record, fit));
-    result.sections.push_back(outside_accelerations(record, fit));
-  }
-  if (options.shown == Shown::pictures)
-    std::ranges::move(profile_sections(fit, theta, result.parameters, kProfiles),
-                      std::back_inserter(result.sections));
+  judge(result, refined, push, tested);
+  show(result, refined, push, vibration, options.shown);
   if (options.validate && record.duration > 6) validate(result, record, theta, fit, options.shown);
   result.verdict = verdict(result, record.duration);
   if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
