@@ -102,5 +102,14 @@ TEST(SeldomCommands, GiveWayToSpeedsThatWereLoggedMoreOften) {
   }
 }
 
+TEST(SeldomCommands, SpeedsThatAreSeldomLeaveInertiaOpenWhereTheyAreAllThereIs) {
+  FlightLog log = flown(true);
+  log.delta.clear();
+  log.Omega = logged_each(log.Omega, 12, false);
+  const Result result = refine_flight(testing::known(testing::quad()), std::vector{log}, {.validate = false});
+  EXPECT_TRUE(result.has_warning("seldom_speeds"));
+  for (const char* name : {"Jxx", "Jyy", "Jzz"}) EXPECT_FALSE(is_known(result, name)) << name;
+}
+
 }  // namespace
 }  // namespace ident

@@ -86,5 +86,21 @@ TEST(ForeignLog, SecondsSince1970CountFromTheBeginning) {
   EXPECT_NEAR(read(86'000).t[0], 86'000, 1e-6);  // a day that a processor has been on
 }
 
+TEST(ForeignLog, SpeedsThatAreHeldBetweenTheirSamplesCountOnce) {
+  std::string text = "t,p,q,r,az,omega1,omega2,omega3,omega4\n";
+  for (int i = 0; i < 200; ++i) {
+    const double speed = 700 + std::sin(1.0 * (i / 5));
+    text += fmt::format("{:.2f},{:.4f},0.01,0.02,{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}\n", 0.01 * i,
+                        0.1 * std::sin(0.1 * i), -9.81 + 0.1 * std::sin(0.3 * i), speed, speed + 1, speed - 2,
+                        speed + 3);
+  }
+  const Written file("held.csv", text);
+  const FlightLog log = read_flight_log(file.path(), testing::published_vehicle(), {});
+  EXPECT_TRUE(std::ranges::any_of(log.warnings, [](const Warning& w) {
+    return w.code == "held_samples" && w.message.find("rotor speeds: 80 %") != std::string::npos;
+  }));
+  EXPECT_EQ(std::ranges::count_if(log.Omega[2], [](double x) { return std::isfinite(x); }), 40);
+}
+
 }  // namespace
 }  // namespace ident

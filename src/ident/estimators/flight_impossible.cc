@@ -69,9 +69,9 @@ void doubt_coarse_commands(Result& result) {
 }
 
 void doubt_seldom_speeds(Result& result) {
-  if (result.has_warning("low_rate"))
+  if (result.has_warning("low_rate") || result.has_warning("seldom_speeds"))
     doubt_all(result, {"kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"},
-              "what the rotors do between rows that far apart was not measured");
+              "what the rotors do between samples that far apart was not measured");
 }
 
 void doubt_contradicted(Result& result) {

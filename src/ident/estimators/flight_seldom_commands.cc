@@ -56,11 +56,14 @@ bool are_rough(std::span<const FlightLog> logs) {
   return std::ranges::any_of(logs, [](const FlightLog& log) { return roughness(log) > kRough; });
 }
 
-// Of the longest of the logs' intervals, with rows counted too.
+// Between samples of what drives the motors, commands or measured speeds, in the log where it is longest;
+// rows count too.
 double longest_interval(const FlightRecord& record, std::span<const FlightLog> logs) {
   double longest = record.interval;
   for (const FlightLog& log : logs)
-    if (const double interval = time_between(log.t, log.delta); interval > longest) longest = interval;
+    if (const double interval = time_between(log.t, record.signals.commands ? log.delta : log.Omega);
+        interval > longest)
+      longest = interval;
   return longest;
 }
 
@@ -86,13 +89,15 @@ bool commands_are_seldom(const FlightLog& log) {
   return log.has_commands() && time_between(log.t, log.delta) > kSeldom;
 }
 
-std::optional<Warning> seldom_commands(const FlightRecord& record, std::span<const FlightLog> logs) {
+std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const FlightLog> logs) {
   const double interval = longest_interval(record, logs);
-  if (!record.signals.commands || !(interval > std::max(kSeldom, kHeld * record.interval))) return {};
-  return Warning{"seldom_commands",
-                 fmt::format("commands come at {:.3g} Hz, rows at {:.3g} Hz: what the motors were told in "
-                             "between was not logged; log commands at 100 Hz or more",
-                             1 / interval, 1 / record.interval)};
+  if (!(interval > std::max(kSeldom, kHeld * record.interval))) return {};
+  const bool commands = record.signals.commands;
+  return Warning{commands ? "seldom_commands" : "seldom_speeds",
+                 fmt::format("{} come at {:.3g} Hz, rows at {:.3g} Hz: what the motors {} in between was not "
+                             "logged; log {} at 100 Hz or more",
+                             commands ? "commands" : "rotor speeds", 1 / interval, 1 / record.interval,
+                             commands ? "were told" : "did", commands ? "commands" : "them")};
 }
 
 std::optional<double> hides_motion(const FlightRecord& record, std::span<const FlightLog> logs) {

@@ -19,9 +19,9 @@ double time_between(const std::vector<double>& t, std::span<const std::vector<do
 /// 49 Hz.
 bool commands_are_seldom(const FlightLog& log);
 
-/// Warning `seldom_commands`: rows come often enough, but commands do not. Of the log where they are furthest
-/// apart.
-std::optional<Warning> seldom_commands(const FlightRecord& record, std::span<const FlightLog> logs);
+/// Warning `seldom_commands`, or `seldom_speeds` where these are the input: rows come often enough, but that
+/// does not. Of the log where it is furthest apart.
+std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const FlightLog> logs);
 
 /// By how much commands change from one to the next, of what they change over 25 of them: 1 for noise, 0 for
 /// what is smooth.

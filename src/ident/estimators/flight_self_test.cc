@@ -144,7 +144,7 @@ void test_health(const FlightRecord& record, std::span<const FlightLog> logs,
         {"low_rate", fmt::format("rows come at {:.3g} Hz: motor lag and fast turns pass between "
                                  "them; log at 100 Hz or more",
                                  1 / record.interval)});
-  if (const auto seldom = seldom_commands(record, logs)) findings.push_back(*seldom);
+  if (const auto seldom = seldom_input(record, logs)) findings.push_back(*seldom);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace ident {
 
 /// Named findings: wrong_frame, sign_flipped, axes_swapped, motor_order, rotor_spin, thrust_weight (none of
 /// the numbers can be trusted); hover_only, no_excitation, saturated_commands, coarse_commands, short_log,
-/// low_rate, seldom_commands (some cannot be told). Raised on strong evidence only; a log with nothing wrong
-/// has none of the first six. `p` are the constants to start from.
+/// low_rate, seldom_commands, seldom_speeds (some cannot be told). Raised on strong evidence only; a log with
+/// nothing wrong has none of the first six. `p` are the constants to start from.
 std::vector<Warning> self_test(const FlightRecord& record, std::span<const FlightLog> logs,
                                const Vehicle& vehicle, std::span<const double> p);
 

@@ -168,6 +168,7 @@ class Builder {
     }
     if (!Omega.empty()) check_rotor_speeds(log_, Omega);
     if (Omega.empty() || Omega.front().empty()) return;
+    drop_held(log_, Omega, "rotor speeds");
     drop_spikes(log_, Omega, "rotor speeds");
     log_.Omega = std::move(Omega);
   }
