@@ -109,10 +109,11 @@ std::optional<double> hides_motion(const FlightRecord& record, std::span<const F
 void doubt_seldom_commands(Result& result, const FlightRecord& record, std::span<const FlightLog> logs) {
   if (!record.signals.commands) return;
   const bool early = std::ranges::any_of(result.parameters, is_before_its_command);
-  if (!early && !(longest_interval(record, logs) > kSeldom)) return;
+  const bool seldom = longest_interval(record, logs) > kSeldom;
+  if (!early && !seldom) return;
   constexpr const char* kWhy = "what the motors were told between commands that far apart was not logged";
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
-  if (!are_rough(logs)) return;
+  if (!are_rough(logs) && !(early && seldom)) return;
   doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
 }

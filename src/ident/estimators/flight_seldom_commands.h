@@ -32,8 +32,9 @@ double roughness(const FlightLog& log);
 std::optional<double> hides_motion(const FlightRecord& record, std::span<const FlightLog> logs);
 
 /// A controller goes on between commands. Where these are seldom, or rotors seem to turn before them, which
-/// shows that there were others, motors do not count as known; where they are rough as well, neither do
-/// moments of inertia, nor an offset of the command that such logs ask for, with what goes with it.
+/// shows that there were others, motors do not count as known; where both is so, or either and commands are
+/// rough, neither do moments of inertia, nor an offset of the command that such logs ask for, with what goes
+/// with it.
 void doubt_seldom_commands(Result& result, const FlightRecord& record, std::span<const FlightLog> logs);
 
 }  // namespace ident
