@@ -39,11 +39,11 @@ Columns logged_each(Columns columns, std::size_t every, bool hold) {
 TEST(SeldomCommands, AreTimedByTheRowsThatBringNewOnes) {
   const std::vector<double> t = hundredths(400);
   const Columns each = noise(400);
-  EXPECT_NEAR(time_between(t, each), 0.01, 1e-12);
-  EXPECT_NEAR(time_between(t, logged_each(each, 5, true)), 0.05, 1e-12);
-  EXPECT_NEAR(time_between(t, logged_each(each, 5, false)), 0.05, 1e-12);
-  EXPECT_TRUE(std::isnan(time_between(t, {})));
-  EXPECT_TRUE(std::isnan(time_between(t, logged_each(each, 400, false))));
+  EXPECT_NEAR(new_samples(t, each).apart, 0.01, 1e-12);
+  EXPECT_NEAR(new_samples(t, logged_each(each, 5, true)).apart, 0.05, 1e-12);
+  EXPECT_NEAR(new_samples(t, logged_each(each, 5, false)).apart, 0.05, 1e-12);
+  EXPECT_TRUE(std::isnan(new_samples(t, {}).apart));
+  EXPECT_TRUE(std::isnan(new_samples(t, logged_each(each, 400, false)).apart));
 }
 
 TEST(SeldomCommands, AreNotThoseThatChangeByCoarseStepsNowAndThen) {
@@ -52,7 +52,9 @@ TEST(SeldomCommands, AreNotThoseThatChangeByCoarseStepsNowAndThen) {
   for (std::size_t n = 0; n < 4; ++n)
     for (std::size_t i = 0; i < 400; ++i)
       coarse[n][i] = std::round(100 * (0.5 + 0.05 * std::sin(0.1 * static_cast<double>(i + 7 * n)))) / 100;
-  EXPECT_NEAR(time_between(t, coarse), 0.01, 1e-12);
+  EXPECT_NEAR(new_samples(t, coarse).apart, 0.01, 1e-12);
+  for (std::size_t n = 1; n < 4; ++n) coarse[n] = coarse[0];  // all alike, as a vehicle that climbs
+  EXPECT_NEAR(new_samples(t, coarse).apart, 0.01, 1e-12);
 }
 
 TEST(SeldomCommands, AreRoughWhereTheyHaveNothingToDoWithTheOnesBefore) {

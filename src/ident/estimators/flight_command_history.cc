@@ -6,33 +6,32 @@
 #include <cmath>
 
 #include "ident/core/math.h"
+#include "ident/estimators/flight_seldom_commands.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
 namespace {
 
-constexpr double kLost = 1.6;     // usual steps without a row, or more: some are lost
+constexpr double kLost = 1.6;     // usual steps from one row to the next, or more: some are lost
 constexpr double kLongest = 0.1;  // s: beyond it the line tells nothing
 constexpr double kRegular = 0.2;  // at most that share of steps is long, else that is how it was logged
 
-struct Samples {
-  std::vector<double> t, delta;
-};
-
-Samples samples_of(const FlightLog& log, const std::vector<double>& column) {
-  Samples out;
-  for (std::size_t i = 0; i < log.rows(); ++i)
-    if (std::isfinite(column[i])) out.t.push_back(log.t[i]), out.delta.push_back(column[i]);
-  if (out.t.empty()) out = {{log.t.front()}, {0.0}};
-  return out;
-}
-
-bool is_hole(double step, double usual) { return step > kLost * usual && step < kLongest; }
-
-bool is_regular(const std::vector<double>& t, double usual) {
-  std::size_t holes = 0;
-  for (std::size_t i = 1; i < t.size(); ++i) holes += is_hole(t[i] - t[i - 1], usual);
-  return static_cast<double>(holes) < kRegular * static_cast<double>(t.size());
+// The rows after which some are lost: commands that come anew in the very next row, and yet late. Where other
+// messages come in between nothing is lost.
+std::vector<bool> lost_after(const FlightLog& log, const NewSamples& anew) {
+  std::vector<bool> lost(log.rows());
+  std::size_t count = 0;
+  for (std::size_t k = 1; k < anew.rows.size(); ++k) {
+    const std::size_t row = anew.rows[k - 1];
+    const double step = log.t[anew.rows[k]] - log.t[row];
+    if (anew.rows[k] != row + 1 || !(step > kLost * anew.apart && step < kLongest) ||
+        std::ranges::find(log.breaks, log.t[row]) != log.breaks.end())
+      continue;
+    lost[row] = true, ++count;
+  }
+  if (!(static_cast<double>(count) < kRegular * static_cast<double>(anew.rows.size())))
+    lost.assign(log.rows(), false);
+  return lost;
 }
 
 }  // namespace
@@ -49,21 +48,25 @@ double usual_step(const FlightLog& log) {
 }
 
 std::vector<HeldCommand> command_history(const FlightLog& log, double from, double to) {
-  const double usual = usual_step(log);
+  const NewSamples anew = new_samples(log.t, log.delta);
+  const std::vector<bool> lost = lost_after(log, anew);
+  const auto before = std::ranges::upper_bound(log.t, from) - log.t.begin();
   std::vector<HeldCommand> history;
   for (const std::vector<double>& column : log.delta) {
-    const auto [t, delta] = samples_of(log, column);
-    const bool fill = is_regular(t, usual);
     HeldCommand command;
-    const auto before = std::ranges::upper_bound(t, from) - t.begin();
-    for (auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(before - 1, 0)); i < t.size(); ++i) {
-      command.append(t[i], delta[i]);
-      if (t[i] > to) break;
-      if (!fill || i + 1 == t.size() || !is_hole(t[i + 1] - t[i], usual)) continue;
-      const double lost = std::round((t[i + 1] - t[i]) / usual);
-      for (double k = 1; k < lost; ++k)
-        command.append(t[i] + k / lost * (t[i + 1] - t[i]), delta[i] + k / lost * (delta[i + 1] - delta[i]));
+    double last = kNaN;  // where nothing is known at `from` yet, the first that comes
+    auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(before - 1, 0));
+    while (i > 0 && std::isnan(column[i])) --i;
+    for (; i < log.rows(); ++i) {
+      if (std::isnan(column[i])) continue;
+      command.append(log.t[i], last = column[i]);
+      if (log.t[i] > to) break;
+      if (!lost[i]) continue;
+      const double step = log.t[i + 1] - log.t[i], count = std::round(step / anew.apart);
+      for (double k = 1; k < count; ++k)
+        command.append(log.t[i] + k / count * step, column[i] + k / count * (column[i + 1] - column[i]));
     }
+    if (std::isnan(last)) command.append(log.t.front(), 0.0);
     history.push_back(std::move(command));
   }
   return history;

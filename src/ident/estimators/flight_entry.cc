@@ -28,12 +28,15 @@ double mean_of_used(const std::vector<double>& column) {
   return n > 0 ? sum / n : kNaN;
 }
 
-// Whether the commands of a log are seldom, and speeds came at least twice as often in all that are like it.
-bool speeds_tell_more(std::span<const FlightLog> logs) {
-  const auto seldom = [](const FlightLog& log) { return commands_are_seldom(log); };
-  return std::ranges::any_of(logs, seldom) && std::ranges::all_of(logs, [&](const FlightLog& log) {
-           return !seldom(log) || 2 * time_between(log.t, log.Omega) < time_between(log.t, log.delta);
-         });
+// The first log whose commands are seldom, where rotor speeds came at least twice as often in all such logs.
+const FlightLog* seldom_beside_speeds(std::span<const FlightLog> logs) {
+  const FlightLog* first = nullptr;
+  for (const FlightLog& log : logs) {
+    if (!commands_are_seldom(log)) continue;
+    if (!(2 * new_samples(log.t, log.Omega).apart < new_samples(log.t, log.delta).apart)) return nullptr;
+    if (!first) first = &log;
+  }
+  return first;
 }
 
 // Commands of all logs or of none: where those of one are missing, or were left out as not the right ones,
@@ -43,10 +46,13 @@ std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::ve
   if (std::ranges::none_of(logs, &FlightLog::has_commands)) return {};
   const bool speeds = std::ranges::all_of(logs, &FlightLog::has_rotor_speeds);
   std::vector<bool> commands;
-  if (speeds && speeds_tell_more(logs)) {
-    warnings.push_back({"seldom_commands",
-                        "commands come at less than 49 Hz, rotor speeds twice as often or more: the "
-                        "speeds are taken, and nothing is said of the motors"});
+  if (const FlightLog* seldom = speeds ? seldom_beside_speeds(logs) : nullptr) {
+    warnings.push_back(
+        {"seldom_commands",
+         fmt::format(
+             "{}: commands come at less than 49 Hz, rotor speeds twice as often or more: speeds serve as "
+             "input, and of the motors nothing is said{}",
+             seldom->file, logs.size() > 1 ? "; give other logs alone for that" : "")});
     return without_commands(logs);
   }
   for (const FlightLog& log : logs) {

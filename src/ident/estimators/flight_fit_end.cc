@@ -20,6 +20,8 @@ constexpr double kSure = 0.5;
 // flight would say of a constant, were all states known, over what it does say. At the root of this limit no
 // error was above a hundredth in any direction.
 constexpr double kSingleServes = 1e6;
+// Times the cost that a minimum by exact slopes may have: it is that of nearly the same place.
+constexpr double kAstray = 1.5;
 
 // Whether the rounding of slopes in single precision could pass for information: where there is next to no
 // noise, so that little of what the rows say of a constant is left once states are free.
@@ -56,9 +58,15 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
   } else if (options.exact && rounding_shows(smoother, by_all().covariance)) {
     const std::vector<FlightState<double>> states = smoother.states();
     const VectorXd u = fit.u;
+    const double before = smoother.reduced().cost;
+    bool astray = false;  // as what little is known of states may go there
     try {
       minimum(true);
-    } catch (const DataError&) {  // what little is known of states goes astray there
+      astray = !(smoother.reduced().cost < kAstray * before + 1);
+    } catch (const DataError&) {
+      astray = true;
+    }
+    if (astray) {
       smoother.set_exact(false);
       smoother.set_states(states);
       linearize_at(smoother, fit.u = u);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/error.h"
+
 namespace ident {
 namespace {
 
@@ -199,8 +201,9 @@ FlightFit Fitting::finish() {
   if (gave_up()) return unfinished();
   smoother_->set_gentle(false);
   if (options_.exact) smoother_->set_steps(Steps::fine);
-  // Far from any minimum states may have been sent where nothing flies: back to what was measured then.
-  if (!is_finite(linearize_at(*smoother_, u_))) restart(smoother_->noise());
+  // Far from any minimum states may have been sent where nothing flies, from where gross errors, which count
+  // linearly, do not call them back: back to what was measured then.
+  if (!is_finite(linearize_at(*smoother_, u_)) || is_lost()) restart(smoother_->noise());
   const SharedMinimum at = minimise_shared(*smoother_, u_, worth_a_step(*smoother_, options_),
                                            options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
   u_ = at.u, steps_ += at.steps;
@@ -212,8 +215,15 @@ FlightFit Fitting::finish() {
   fit.smoother = smoother_;
   fit.converged = true, fit.serves = serves_;
   finish_fit(fit, theta_, options_, true);
+  const bool lost = !fit.covariance.allFinite() || !(fit.cost < kFar * samples_of(record_));
+  if (options_.estimate_noise && lost)
+    throw DataError(
+        "the fit does not come to rest: states run away from what was measured; state more of the "
+        "constants in the vehicle file, or give another part of the log");
   return fit;
 }
+
+bool Fitting::is_lost() const { return options_.estimate_noise && !(square_of(*smoother_) < kFar); }
 
 TrustRegion Fitting::first_steps() const {
   TrustRegion first{.tolerance = 1.0, .near = kNear, .free = false};

@@ -43,6 +43,8 @@ class Fitting {
   FlightFit finish();
 
  private:
+  /// Whether some of the states have nothing to do with what was measured.
+  bool is_lost() const;
   TrustRegion first_steps() const;
   bool gave_up() const { return options_.most_steps > 0 && steps_ >= options_.most_steps; }
   FlightFit unfinished() const;

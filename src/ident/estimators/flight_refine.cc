@@ -9,6 +9,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/estimators/flight_air_share.h"
 #include "ident/estimators/flight_channels.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_first_order.h"
@@ -192,6 +193,7 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, std::
   doubt_coarse_commands(result);
   if (!record.signals.commands) doubt_seldom_speeds(result);
   doubt_seldom_commands(result, record, logs);
+  warn_of_air(result, air_share(record, fit));
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
@@ -204,6 +206,7 @@ void show(Result& result, const Refined& refined, const SteadyPush& push, const 
           Shown shown) {
   const auto& [vehicle, logs, record, theta, fit, body] = refined;
   result.fit = as_json(record, fit);
+  result.fit["air_over_rotors"] = air_share(record, fit).over_rotors;
   std::vector<ThrustAt> thrust;
   if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
   if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);

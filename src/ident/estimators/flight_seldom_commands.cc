@@ -17,24 +17,39 @@ namespace ident {
 namespace {
 
 constexpr double kSeldom = 1.0 / 49.0;  ///< s
+constexpr double kEarly = 1.0 / 110.0;  ///< s, where rotors turn before their commands
 constexpr double kHeld = 1.5;           ///< rows, or more, from change to change
 constexpr double kTogether = 0.7;       ///< of the rotors change where one does
+constexpr double kEven = 0.3;           ///< of the usual time from change to change: as far as others are
+constexpr double kMostEven = 0.6;       ///< of them are that near
 constexpr double kRough = 0.42;         ///< of what commands change in the long run
 constexpr std::size_t kLongRun = 25;    ///< samples
 
-struct Samples {
-  std::vector<std::size_t> rows;  // that brought anything new
-  double apart = 0.0;             // s, the median
-};
-
-double median_step(const std::vector<double>& t, const std::vector<std::size_t>& rows) {
+std::vector<double> steps_of(const std::vector<double>& t, const std::vector<std::size_t>& rows) {
   std::vector<double> d;
   for (std::size_t i = 1; i < rows.size(); ++i) d.push_back(t[rows[i]] - t[rows[i - 1]]);
-  return d.empty() ? 0.0 : median(d);
+  return d;
 }
 
-// Where columns were sampled; where they are held in between, only those rows in which they change.
-Samples samples_of(const std::vector<double>& t, std::span<const std::vector<double>> columns) {
+// Holding is periodic; commands in coarse steps change now and then.
+bool are_even(const std::vector<double>& steps, double usual) {
+  const auto near =
+      std::ranges::count_if(steps, [&](double step) { return std::abs(step - usual) < kEven * usual; });
+  return static_cast<double>(near) > kMostEven * static_cast<double>(steps.size());
+}
+
+double interval_of(const FlightRecord& record, const FlightLog& log) {
+  const double interval = new_samples(log.t, record.signals.commands ? log.delta : log.Omega).apart;
+  return interval > 0 ? interval : 0.0;  // NaN too
+}
+
+bool is_seldom_and_rough(const FlightRecord& record, const FlightLog& log, double interval) {
+  return std::max(record.interval, interval_of(record, log)) > interval && roughness(log) > kRough;
+}
+
+}  // namespace
+
+NewSamples new_samples(const std::vector<double>& t, std::span<const std::vector<double>> columns) {
   std::vector<std::size_t> sampled, changed;
   double changes = 0;
   for (std::size_t i = 0; i < t.size() && !columns.empty(); ++i) {
@@ -46,36 +61,18 @@ Samples samples_of(const std::vector<double>& t, std::span<const std::vector<dou
     if (moved > 0) changed.push_back(i), changes += static_cast<double>(moved);
     sampled.push_back(i);
   }
-  const double apart = median_step(t, sampled), held = median_step(t, changed);
+  if (sampled.size() < 2) return {std::move(sampled), kNaN};
+  const double apart = median(steps_of(t, sampled));
   const bool together = changes > kTogether * static_cast<double>(changed.size() * columns.size());
-  if (together && held > kHeld * apart) return {std::move(changed), held};
-  return {std::move(sampled), apart};
-}
-
-bool are_rough(std::span<const FlightLog> logs) {
-  return std::ranges::any_of(logs, [](const FlightLog& log) { return roughness(log) > kRough; });
-}
-
-// Between samples of what drives the motors, commands or measured speeds, in the log where it is longest;
-// rows count too.
-double longest_interval(const FlightRecord& record, std::span<const FlightLog> logs) {
-  double longest = record.interval;
-  for (const FlightLog& log : logs)
-    if (const double interval = time_between(log.t, record.signals.commands ? log.delta : log.Omega);
-        interval > longest)
-      longest = interval;
-  return longest;
-}
-
-}  // namespace
-
-double time_between(const std::vector<double>& t, std::span<const std::vector<double>> columns) {
-  const Samples anew = samples_of(t, columns);
-  return anew.rows.size() < 2 ? kNaN : anew.apart;
+  if (!together || changed.size() < 2) return {std::move(sampled), apart};
+  const std::vector<double> steps = steps_of(t, changed);
+  const double held = median(steps);
+  if (!(held > kHeld * apart) || !are_even(steps, held)) return {std::move(sampled), apart};
+  return {std::move(changed), held};
 }
 
 double roughness(const FlightLog& log) {
-  const std::vector<std::size_t> rows = samples_of(log.t, log.delta).rows;
+  const std::vector<std::size_t> rows = new_samples(log.t, log.delta).rows;
   double next = 0, later = 0;
   for (std::size_t i = kLongRun; i < rows.size(); ++i)
     for (const std::vector<double>& delta : log.delta) {
@@ -86,34 +83,48 @@ double roughness(const FlightLog& log) {
 }
 
 bool commands_are_seldom(const FlightLog& log) {
-  return log.has_commands() && time_between(log.t, log.delta) > kSeldom;
+  return log.has_commands() && new_samples(log.t, log.delta).apart > kSeldom;
+}
+
+double input_interval(const FlightRecord& record, std::span<const FlightLog> logs) {
+  double longest = record.interval;
+  for (const FlightLog& log : logs) longest = std::max(longest, interval_of(record, log));
+  return longest;
 }
 
 std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const FlightLog> logs) {
-  const double interval = longest_interval(record, logs);
+  const auto by_interval = [&](const FlightLog& log) { return interval_of(record, log); };
+  const auto most = std::ranges::max_element(logs, {}, by_interval);
+  const double interval = by_interval(*most);
   if (!(interval > std::max(kSeldom, kHeld * record.interval))) return {};
   const bool commands = record.signals.commands;
-  return Warning{commands ? "seldom_commands" : "seldom_speeds",
-                 fmt::format("{} come at {:.3g} Hz, rows at {:.3g} Hz: what the motors {} in between was not "
-                             "logged; log {} at 100 Hz or more",
-                             commands ? "commands" : "rotor speeds", 1 / interval, 1 / record.interval,
-                             commands ? "were told" : "did", commands ? "commands" : "them")};
+  return Warning{
+      commands ? "seldom_commands" : "seldom_speeds",
+      fmt::format("{}: {} come at {:.3g} Hz: what the motors {} in between was not logged; log {} at "
+                  "100 Hz or more{}",
+                  most->file, commands ? "commands" : "rotor speeds", 1 / interval,
+                  commands ? "were told" : "did", commands ? "commands" : "them",
+                  logs.size() > 1 ? ", or give other logs alone" : "")};
 }
 
 std::optional<double> hides_motion(const FlightRecord& record, std::span<const FlightLog> logs) {
-  const double interval = longest_interval(record, logs);
-  if (!record.signals.commands || !(interval > kSeldom) || !are_rough(logs)) return {};
-  return interval;
+  if (!record.signals.commands) return {};
+  for (const FlightLog& log : logs)
+    if (is_seldom_and_rough(record, log, kSeldom)) return std::max(record.interval, interval_of(record, log));
+  return {};
 }
 
 void doubt_seldom_commands(Result& result, const FlightRecord& record, std::span<const FlightLog> logs) {
   if (!record.signals.commands) return;
   const bool early = std::ranges::any_of(result.parameters, is_before_its_command);
-  const bool seldom = longest_interval(record, logs) > kSeldom;
-  if (!early && !seldom) return;
+  const bool seldom = input_interval(record, logs) > kSeldom;
+  const auto rough_beyond = [&](double interval) {
+    return std::ranges::any_of(
+        logs, [&](const FlightLog& log) { return is_seldom_and_rough(record, log, interval); });
+  };
   constexpr const char* kWhy = "what the motors were told between commands that far apart was not logged";
-  doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
-  if (!are_rough(logs) && !(early && seldom)) return;
+  if (seldom) doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
+  if (!(seldom && early) && !rough_beyond(early ? kEarly : kSeldom)) return;
   doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
 }

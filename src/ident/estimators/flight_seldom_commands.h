@@ -10,31 +10,39 @@
 
 namespace ident {
 
-/// Median time from one sample of a group of columns to the next, s: from row to row where it was sampled
-/// there, and from change to change where its columns change in the same rows and hold in between. NaN
-/// without two.
-double time_between(const std::vector<double>& t, std::span<const std::vector<double>> columns);
+/// Rows of a log that bring something new of a group of columns, and the median time between them, s (NaN of
+/// fewer than two): the rows where it was sampled; of columns that hold in between, the rows where most of
+/// them change, if these come at even times.
+struct NewSamples {
+  std::vector<std::size_t> rows;
+  double apart = 0.0;
+};
+NewSamples new_samples(const std::vector<double>& t, std::span<const std::vector<double>> columns);
 
 /// Whether the commands of a log are so far apart that they leave open what the motors did in between: below
 /// 49 Hz.
 bool commands_are_seldom(const FlightLog& log);
 
-/// Warning `seldom_commands`, or `seldom_speeds` where these are the input: rows come often enough, but that
-/// does not. Of the log where it is furthest apart.
+/// Time between samples of what drives the motors, commands or measured speeds, s: of the log where it is
+/// longest.
+double input_interval(const FlightRecord& record, std::span<const FlightLog> logs);
+
+/// Warning `seldom_commands`, or `seldom_speeds` where these are the input, of the log where that comes most
+/// seldom: rows come often enough, but that does not.
 std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const FlightLog> logs);
 
 /// By how much commands change from one to the next, of what they change over 25 of them: 1 for noise, 0 for
 /// what is smooth.
 double roughness(const FlightLog& log);
 
-/// Time between commands, s, where these are seldom and rough, so that what was flown in between is not to be
-/// told from what was logged: of the log where they are furthest apart.
+/// Time between commands, s, of a log where these are seldom and rough, so that what was flown in between is
+/// not to be told from what was logged.
 std::optional<double> hides_motion(const FlightRecord& record, std::span<const FlightLog> logs);
 
-/// A controller goes on between commands. Where these are seldom, or rotors seem to turn before them, which
-/// shows that there were others, motors do not count as known; where both is so, or either and commands are
-/// rough, neither do moments of inertia, nor an offset of the command that such logs ask for, with what goes
-/// with it.
+/// A controller goes on between commands. Where these are seldom, motors do not count as known; where they
+/// are rough as well, or rotors seem to turn before them, which shows that there were others, neither do
+/// moments of inertia, nor an offset of the command that such logs ask for, with what goes with it. Up to 110
+/// Hz where all three is so but that they are seldom.
 void doubt_seldom_commands(Result& result, const FlightRecord& record, std::span<const FlightLog> logs);
 
 }  // namespace ident

@@ -172,7 +172,10 @@ void check_time(FlightLog& log, long header_line, bool unit_stated) {
                                *longest, log.t[static_cast<std::size_t>(longest - steps.begin())])});
 }
 
-void check_voltage(const FlightLog& log, long header_line, double voltage_of_km) {
+void check_voltage(FlightLog& log, long header_line, double voltage_of_km) {
+  for (double& v : log.vbat)
+    if (!(v > 0)) v = kNaN;
+  if (std::ranges::all_of(log.vbat, [](double v) { return std::isnan(v); })) log.vbat.clear();
   constexpr double kLeast = 0.4, kMost = 2.0;  // of it: no battery flies with less, or has more
   const double usual = middle_of(log.vbat).value_or(voltage_of_km);
   if (usual > kLeast * voltage_of_km && usual < kMost * voltage_of_km) return;

@@ -49,8 +49,9 @@ void check_time(FlightLog& log, long header_line, bool unit_stated);
 /// where gravity is missing from it.
 void check_specific_force(FlightLog& log, long header_line, double gravity);
 
-/// Throws InputError where the battery shows a voltage in another unit than that at which km holds.
-void check_voltage(const FlightLog& log, long header_line, double voltage_of_km);
+/// A voltage of zero and less is none: not sampled. Throws InputError where the battery shows a voltage in
+/// another unit than that at which km holds.
+void check_voltage(FlightLog& log, long header_line, double voltage_of_km);
 
 /// Throws InputError where rates disagree with the attitude by the factor of degrees to radians;
 /// `quaternions` have no unit that could be wrong.

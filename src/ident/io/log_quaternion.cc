@@ -87,7 +87,8 @@ void check_quaternion(FlightLog& log, long header_line) {
         log.file, header_line, "qw, qx, qy, qz",
         fmt::format("do not turn with the rates in this order; taken as {}", kReadings[best].what));
   log.warnings.push_back({"wrong_frame", log.file + ": attitude: turns against the rates about all axes: it "
-                                                    "is that of the world in the body; conjugate it"});
+                                                    "is that of the world in the body; conjugate it (or "
+                                                    "reverse p, q and r, if these are of the other sign)"});
 }
 
 }  // namespace ident
