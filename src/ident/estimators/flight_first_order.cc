@@ -9,7 +9,7 @@ namespace ident {
 namespace {
 
 constexpr double kOverdamped = 3.0;  // zeta_m of which the second pole is 34 times as fast as the first
-constexpr double kKnown = 0.1;       // of that of the lag
+constexpr double kKnown = 0.1;       // standard deviation of the logarithm of the lag
 constexpr double kHeldAt = 50.0, kHeldTo = 0.5;
 
 int index_of(const Theta& theta, const char* name) {
