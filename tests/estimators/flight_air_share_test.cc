@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/known_quad.h"
 
 namespace ident {
@@ -17,6 +19,16 @@ AirShare share_in(double gusts) {
   const FlightRecord record = make_flight_record(vehicle, p, logs);
   const Theta theta(p, free_constants(vehicle, p), record.logs, true);
   return air_share(record, fit_flight(record, theta, {}));
+}
+
+TEST(AirShare, RotorsDoWhatTheAirDoesNot) {
+  TurnedBy turned;
+  turned.add(0.1, {0.2, 0.0, 0.3}, {1.0, 1.0, 3.0});  // rotors: 1, -1 and 0 rad/s^2
+  turned.add(0.1, {0.2, 0.0, 0.3}, {1.0, 1.0, 3.0});
+  EXPECT_NEAR(turned.air_over_rotors()[0], 1.0, 1e-12);
+  EXPECT_NEAR(turned.air_over_rotors()[1], 1.0, 1e-12);
+  turned.add(0.2, {0.8, 0.0, 0.0}, {0.0, 0.0, 0.0});  // 4 rad/s^2, by the rotors alone
+  EXPECT_NEAR(turned.air_over_rotors()[0], std::sqrt(0.2 / 3.4), 1e-12);
 }
 
 TEST(AirShare, GrowsWithTheGusts) {

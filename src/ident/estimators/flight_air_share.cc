@@ -18,27 +18,29 @@ constexpr double kMost = 0.5, kQuick = 0.9;  // s
 
 }  // namespace
 
+std::array<double, 3> TurnedBy::air_over_rotors() const {
+  std::array<double, 3> ratio{};
+  for (Eigen::Index i = 0; i < 3; ++i)
+    if (rotors_[i] > 0) ratio[static_cast<std::size_t>(i)] = std::sqrt(air_[i] / rotors_[i]);
+  return ratio;
+}
+
 AirShare air_share(const FlightRecord& record, const FlightFit& fit) {
   const FlightSmoother& smoother = *fit.smoother;
-  Vec3<double> air = Vec3<double>::Zero(), rotors = Vec3<double>::Zero();
+  TurnedBy turned;
   for (std::size_t k = 0; k + 1 < smoother.chunks().size(); ++k) {
     const ChunkPlace &place = smoother.chunks()[k], &next = smoother.chunks()[k + 1];
     if (next.arc != place.arc) continue;
     const FlightArc& arc = record.arcs[static_cast<std::size_t>(place.arc)];
-    const double h = arc.t[next.begin] - arc.t[place.begin];
     const FlightState<double>&state = smoother.states()[k], &after = smoother.states()[k + 1];
-    const Vec3<double> outside = state.outside.w_dot_B;
-    air += h * outside.cwiseAbs2();
-    rotors += h * ((after.body.w_B - state.body.w_B) / h - outside).cwiseAbs2();
+    turned.add(arc.t[next.begin] - arc.t[place.begin], after.body.w_B - state.body.w_B,
+               state.outside.w_dot_B);
   }
-  AirShare share;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    if (rotors[axis] > 0) share.over_rotors[i] = std::sqrt(air[axis] / rotors[axis]);
+  AirShare share{.over_rotors = turned.air_over_rotors()};
+  for (std::size_t i = 0; i < 3; ++i)
     for (const AirNoise& of_log : fit.noise.air)
       if (const double tau = of_log.w_dot[i].tau; share.seconds[i] == 0 || tau < share.seconds[i])
         share.seconds[i] = tau;
-  }
   return share;
 }
 

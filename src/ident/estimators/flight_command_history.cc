@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ident/core/math.h"
 #include "ident/estimators/flight_seldom_commands.h"
-#include "ident/estimators/statistics.h"
 
 namespace ident {
 namespace {
@@ -36,17 +34,6 @@ std::vector<bool> lost_after(const FlightLog& log, const NewSamples& anew) {
 
 }  // namespace
 
-double usual_step(const FlightLog& log) {
-  std::vector<double> steps;
-  double last = kNaN;
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    if (std::ranges::none_of(log.delta, [&](const auto& c) { return std::isfinite(c[i]); })) continue;
-    if (std::isfinite(last)) steps.push_back(log.t[i] - last);
-    last = log.t[i];
-  }
-  return median(steps);
-}
-
 std::vector<HeldCommand> command_history(const FlightLog& log, double from, double to) {
   const NewSamples anew = new_samples(log.t, log.delta);
   const std::vector<bool> lost = lost_after(log, anew);
@@ -54,19 +41,19 @@ std::vector<HeldCommand> command_history(const FlightLog& log, double from, doub
   std::vector<HeldCommand> history;
   for (const std::vector<double>& column : log.delta) {
     HeldCommand command;
-    double last = kNaN;  // where nothing is known at `from` yet, the first that comes
+    bool any = false;
     auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(before - 1, 0));
     while (i > 0 && std::isnan(column[i])) --i;
     for (; i < log.rows(); ++i) {
       if (std::isnan(column[i])) continue;
-      command.append(log.t[i], last = column[i]);
+      command.append(log.t[i], column[i]), any = true;
       if (log.t[i] > to) break;
       if (!lost[i]) continue;
       const double step = log.t[i + 1] - log.t[i], count = std::round(step / anew.apart);
       for (double k = 1; k < count; ++k)
         command.append(log.t[i] + k / count * step, column[i] + k / count * (column[i + 1] - column[i]));
     }
-    if (std::isnan(last)) command.append(log.t.front(), 0.0);
+    if (!any) command.append(log.t.front(), 0.0);
     history.push_back(std::move(command));
   }
   return history;

@@ -8,10 +8,6 @@
 
 namespace ident {
 
-/// Median time between rows of a log that hold a command, s: messages of several sensors come in rows of
-/// their own.
-double usual_step(const FlightLog& log);
-
 /// The commands of each rotor over these times (s), held from row to row; before and after, the nearest.
 /// Where some rows of an otherwise regular log are lost, the commands that went with them are taken from the
 /// line between those before and after.

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "ident/core/math.h"
-#include "ident/estimators/flight_command_history.h"
 #include "ident/estimators/statistics.h"
 
 namespace ident {
@@ -96,6 +95,18 @@ Pieces pieces(const FlightLog& log, std::vector<bool> fly, double gap, double hi
     return log.t[p.second - 1] - log.t[p.first] < 0.3 || p.second - p.first < 8;
   });
   return out;
+}
+
+// Between rows that hold a command: messages of several sensors come in rows of their own.
+double usual_step(const FlightLog& log) {
+  std::vector<double> steps;
+  double last = kNaN;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (std::ranges::none_of(log.delta, [&](const auto& c) { return std::isfinite(c[i]); })) continue;
+    if (std::isfinite(last)) steps.push_back(log.t[i] - last);
+    last = log.t[i];
+  }
+  return median(steps);
 }
 
 double seconds_of(const FlightLog& log, const Pieces& all) {

@@ -177,11 +177,12 @@ struct Refined {
   const FlightRecord& record;
   const Theta& theta;
   const FlightFit &fit, &body;
+  AirShare air;
 };
 
 // Findings about the fit, and what does not count as known because of them.
 void judge(Result& result, const Refined& refined, const SteadyPush& push, std::vector<Warning>& tested) {
-  const auto& [vehicle, logs, record, theta, fit, body] = refined;
+  const auto& [vehicle, logs, record, theta, fit, body, air] = refined;
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
   warn_of_steady_push(result, push, logs, vehicle.g);
@@ -193,7 +194,7 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, std::
   doubt_coarse_commands(result);
   if (!record.signals.commands) doubt_seldom_speeds(result);
   doubt_seldom_commands(result, record, logs);
-  warn_of_air(result, air_share(record, fit));
+  warn_of_air(result, air);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
@@ -204,9 +205,9 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, std::
 // Numbers of the fit, tables and pictures.
 void show(Result& result, const Refined& refined, const SteadyPush& push, const Vibration& vibration,
           Shown shown) {
-  const auto& [vehicle, logs, record, theta, fit, body] = refined;
+  const auto& [vehicle, logs, record, theta, fit, body, air] = refined;
   result.fit = as_json(record, fit);
-  result.fit["air_over_rotors"] = air_share(record, fit).over_rotors;
+  result.fit["air_over_rotors"] = air.over_rotors;
   std::vector<ThrustAt> thrust;
   if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
   if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
@@ -279,7 +280,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   result.correlation = flight_correlation(theta, fit.covariance);
 
-  const Refined refined{vehicle, logs, record, theta, fit, body};
+  const Refined refined{vehicle, logs, record, theta, fit, body, air_share(record, fit)};
   const SteadyPush push = steady_push(record, fit);
   judge(result, refined, push, tested);
   show(result, refined, push, vibration, options.shown);

@@ -42,7 +42,7 @@ std::optional<double> hides_motion(const FlightRecord& record, std::span<const F
 /// A controller goes on between commands. Where these are seldom, motors do not count as known; where they
 /// are rough as well, or rotors seem to turn before them, which shows that there were others, neither do
 /// moments of inertia, nor an offset of the command that such logs ask for, with what goes with it. Up to 110
-/// Hz where all three is so but that they are seldom.
+/// Hz for commands that are rough and come after what rotors do.
 void doubt_seldom_commands(Result& result, const FlightRecord& record, std::span<const FlightLog> logs);
 
 }  // namespace ident

@@ -76,11 +76,7 @@ Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
   if (!against.empty()) {
     verdict.sentence = fmt::format("A gap is there that looks like {}, but {}.",
                                    fmt::join(verdict.effects, " with "), against);
-    verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(),
-                                 verdict.effects.end());
-    verdict.effects.clear();
-    verdict.status = "unknown";
-    verdict.refused = true;
+    verdict = unnamed(std::move(verdict));
   }
   if (verdict.status == "unknown")
     verdict.sentence +=

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
+
 namespace ident {
 
 Judged with_vibration(Judged verdict, const Vibration& vibration) {
@@ -19,11 +21,7 @@ Judged with_vibration(Judged verdict, const Vibration& vibration) {
         fmt::format("{} The nearest cause beside that is {}.", shakes, fmt::join(verdict.effects, " with "));
   else
     verdict.sentence = shakes;
-  verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(), verdict.effects.end());
-  verdict.refused = !verdict.effects.empty();
-  verdict.effects.clear();
-  verdict.status = "unknown";
-  return verdict;
+  return unnamed(std::move(verdict));
 }
 
 }  // namespace ident

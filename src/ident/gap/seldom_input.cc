@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
+
 namespace ident {
 
 Judged with_seldom_commands(Judged verdict, double interval) {
@@ -14,11 +16,7 @@ Judged with_seldom_commands(Judged verdict, double interval) {
       1 / interval);
   if (!verdict.effects.empty())
     verdict.sentence += fmt::format(" The nearest cause is {}.", fmt::join(verdict.effects, " with "));
-  verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(), verdict.effects.end());
-  verdict.refused = !verdict.effects.empty();
-  verdict.effects.clear();
-  verdict.status = "unknown";
-  return verdict;
+  return unnamed(std::move(verdict));
 }
 
 }  // namespace ident

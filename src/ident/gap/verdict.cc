@@ -205,6 +205,14 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
   return out;
 }
 
+Judged unnamed(Judged verdict) {
+  verdict.confused_with.insert(verdict.confused_with.begin(), verdict.effects.begin(), verdict.effects.end());
+  verdict.refused = !verdict.effects.empty();
+  verdict.effects.clear();
+  verdict.status = "unknown";
+  return verdict;
+}
+
 nlohmann::ordered_json to_json(const Judged& verdict) {
   nlohmann::ordered_json out = {{"status", verdict.status},
                                 {"effects", verdict.effects},

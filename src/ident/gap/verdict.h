@@ -31,6 +31,9 @@ Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& riva
              const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
              const std::vector<Parameter>& fitted);
 
+/// The verdict `unknown` of which nothing is named: what was, is among the nearest.
+Judged unnamed(Judged verdict);
+
 /// As `verdict` of a result.
 nlohmann::ordered_json to_json(const Judged& verdict);
 
