@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 #include "ident/core/random.h"
 #include "support/shaken.h"
@@ -169,6 +170,46 @@ TEST(Vibration, WhereTonesPassForMotionNothingCounts) {
   EXPECT_GT(lost, 0.01 * rows);
   EXPECT_LT(lost, 0.8 * rows);
   EXPECT_LT(square, 0.5 * before);
+}
+
+// A controller that oscillates in yaw as fast as a rotor's turns show.
+TEST(Vibration, WhatRotorsWereToldToDoIsNoTone) {
+  Vehicle vehicle = testing::shaken_vehicle();
+  vehicle.parameters.at("Jp").value *= 25;
+  const FlightLog quiet = flown(vehicle, 8, true);
+  FlightLog told = quiet;
+  constexpr double kSize = 0.3, kHz = 75.0;  // of the command
+  const std::complex<double> s(0, 2 * M_PI * kHz);
+  const double omega_m = vehicle.value("omega_m"), zeta_m = vehicle.value("zeta_m");
+  const std::complex<double> Omega = vehicle.value("km") * kSize * omega_m * omega_m /
+                                     (s * s + 2 * zeta_m * omega_m * s + omega_m * omega_m);
+  const double yaw = 4 * std::abs(Omega) * vehicle.value("Jp") / vehicle.value("Jzz");
+  double angle = 0;
+  for (std::size_t i = 0; i < told.rows(); ++i) {
+    if (i > 0) angle += 0.5 * (quiet.Omega[0][i] + quiet.Omega[0][i - 1]) * (told.t[i] - told.t[i - 1]);
+    for (std::size_t n = 0; n < 4; ++n) told.delta[n][i] += vehicle.rotors[n].s * kSize * std::sin(angle);
+    told.w_B[2][i] += yaw * std::sin(angle + 1.0);
+  }
+  FlightLog shaken_only = told;
+  shaken_only.delta = quiet.delta;
+  for (FlightLog* log : {&told, &shaken_only}) log->Omega.clear();
+  EXPECT_FALSE(freed(vehicle, told).vibration.found());
+  EXPECT_TRUE(freed(vehicle, shaken_only).vibration.found());
+}
+
+// Where power grows to the end of what simulated speeds may be off by, something else lies beyond.
+TEST(Vibration, ATwelfthFasterThanSimulatedRotorsCanTurnIsNoTone) {
+  const Vehicle vehicle = testing::shaken_vehicle();
+  for (const double faster : {1.06, 1.12}) {
+    const FlightLog quiet = flown(vehicle, 4, true);
+    FlightLog loud = quiet;
+    std::vector<std::vector<double>> Omega = quiet.Omega;
+    for (std::vector<double>& speed : Omega)
+      for (double& v : speed) v *= faster;
+    testing::shake(loud, Omega, 450.0, {1.0, 1.5, 0.8, 1.2}, 0.05);
+    loud.Omega.clear();
+    EXPECT_EQ(freed(vehicle, loud).vibration.found(), faster < 1.1) << faster;
+  }
 }
 
 TEST(Vibration, LogsWithGapsAndMixedRatesAreTakenAsTheyAre) {

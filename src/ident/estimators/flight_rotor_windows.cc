@@ -10,16 +10,19 @@
 namespace ident {
 namespace {
 
-// Rotor speeds as measured or simulated from the commands.
-std::vector<Track> rotor_speeds(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p,
-                                bool measured) {
+// Rotor speeds as measured; of rotors that never were: zero.
+std::vector<Track> measured_speeds(const FlightArc& arc, std::size_t rotors) {
+  std::vector<Track> out(rotors, Track(arc.rows(), 0.0));
+  for (std::size_t n = 0; n < rotors && n < arc.inputs->Omega.size(); ++n)
+    if (arc.inputs->Omega[n].size() == arc.rows()) out[n] = arc.inputs->Omega[n];
+  return out;
+}
+
+}  // namespace
+
+std::vector<Track> simulated_speeds(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
   const std::size_t rotors = vehicle.rotors.size();
   std::vector<Track> out(rotors, Track(arc.rows(), 0.0));
-  if (measured) {
-    for (std::size_t n = 0; n < rotors && n < arc.inputs->Omega.size(); ++n)
-      if (arc.inputs->Omega[n].size() == arc.rows()) out[n] = arc.inputs->Omega[n];
-    return out;
-  }
   const EffectSet<double> effects(p, active_effects(p));
   Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
   std::array<MotorState<double>, kMaxRotors> motors{};
@@ -31,8 +34,6 @@ std::vector<Track> rotor_speeds(const FlightArc& arc, const Vehicle& vehicle, st
   return out;
 }
 
-}  // namespace
-
 Streams rotor_streams(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p,
                       bool measured) {
   Streams out;
@@ -41,7 +42,8 @@ Streams rotor_streams(const FlightArc& arc, const Vehicle& vehicle, std::span<co
     for (std::size_t i = 0; i < arc.rows(); ++i) rate[i] = arc.body[i].w_B[static_cast<Eigen::Index>(k)];
     out.rates[k] = rate;
   }
-  for (const Track& speed : rotor_speeds(arc, vehicle, p, measured)) {
+  for (const Track& speed :
+       measured ? measured_speeds(arc, vehicle.rotors.size()) : simulated_speeds(arc, vehicle, p)) {
     Track square = speed;
     for (double& v : square) v *= v;
     out.thrust.emplace_back(integral(arc.t, square)), out.spin.emplace_back(speed);

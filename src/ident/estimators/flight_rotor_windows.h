@@ -23,6 +23,9 @@ struct Streams {
   std::vector<double> mean_square;       ///< of Omega of each column
 };
 
+/// Speed of each rotor at the rows of an arc, simulated from its commands, rad/s.
+std::vector<Track> simulated_speeds(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p);
+
 /// Rotor speeds as measured or, when those are not asked for, simulated from the commands.
 Streams rotor_streams(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p, bool measured);
 

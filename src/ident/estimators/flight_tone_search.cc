@@ -17,13 +17,16 @@ using Eigen::Index;
 constexpr int kOrders = 3;            // the balance of a propeller, and two or three blades that pass
 constexpr double kBeyondDoubt = 6.0;  // standard deviations
 constexpr double kLikely = 3.5;
+// Times the power that commands make there, which may be that of motors of which nothing is known. A tone
+// that went through a controller to the motors comes back with a hundredth of its size and less.
+constexpr double kCommanded = 30.0;
 constexpr std::size_t kFewestWindows = 10;
 constexpr double kFarthest = 0.1;  // by which simulated speeds may be off
 
 // Of each order, at `aside` Hz times seconds of the window from the tones, by each of them.
 template <std::size_t Sides>
 std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rotors, const ToneWindow& w,
-                                                        double scale,
+                                                        const Eigen::MatrixXd& told, double scale,
                                                         const std::array<double, Sides>& asides) {
   const Eigen::ArrayXXcd turned = rotors.turned(w, scale);
   const Eigen::VectorXd sizes = rotors.sizes(w);
@@ -37,8 +40,8 @@ std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rot
       Eigen::ArrayXcd tone = aside;
       for (std::size_t k = 0; k < kOrders; ++k) {
         tone *= turned.col(n);
-        const double power = (w.told.transpose() * tone.real().matrix()).squaredNorm() +
-                             (w.told.transpose() * tone.imag().matrix()).squaredNorm();
+        const double power = (told.transpose() * tone.real().matrix()).squaredNorm() +
+                             (told.transpose() * tone.imag().matrix()).squaredNorm();
         out[k][side] += sizes[n] * sizes[n] * power;
       }
     }
@@ -48,11 +51,19 @@ std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rot
 
 }  // namespace
 
-TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& sensor, double scale) {
+TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& sensor,
+                                const std::vector<Eigen::MatrixXd>& commanded, double scale) {
   static constexpr std::array kSides = {0.0, -4.0, -2.5, -1.5, 1.5, 2.5, 4.0};
   std::vector<std::array<std::array<double, kSides.size()>, kOrders>> found(sensor.windows.size());
-  in_parallel(found.size(),
-              [&](std::size_t i) { found[i] = power_of(rotors, sensor.windows[i], scale, kSides); });
+  std::vector<std::array<std::array<double, 1>, kOrders>> by_commands(found.size());
+  in_parallel(found.size(), [&](std::size_t i) {
+    const ToneWindow& w = sensor.windows[i];
+    found[i] = power_of(rotors, w, w.told, scale, kSides);
+    if (commanded[i].size() == 0) return;
+    Eigen::MatrixXd told(commanded[i].rows(), 3);
+    for (Index axis = 0; axis < 3; ++axis) told.col(axis) = w.weighted(commanded[i].col(axis), axis);
+    by_commands[i] = power_of<1>(rotors, w, told, scale, {0.0});
+  });
   TonesFound out;
   if (found.size() < kFewestWindows) return out;
   for (std::size_t k = 0; k < kOrders; ++k) {
@@ -61,7 +72,10 @@ TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& 
       for (std::size_t side = 0; side < sums.size(); ++side) sums[side] += window[k][side];
     // Beside one tone there may be another: what is usual there counts.
     std::vector<double> beside(sums.begin() + 1, sums.end());
-    const double more = sums[0] - median(beside), n = static_cast<double>(found.size());
+    double commanded_there = 0;
+    for (const auto& window : by_commands) commanded_there += window[k][0];
+    const double more = sums[0] - median(beside) - kCommanded * commanded_there,
+                 n = static_cast<double>(found.size());
     std::vector<double> squares;  // by how much chance scatters it, of each side
     for (std::size_t side = 1; side < sums.size(); ++side) {
       double& square = squares.emplace_back(0.0);
@@ -80,7 +94,7 @@ double likeliest_scale(const TurningRotors& rotors, const std::vector<const Tone
     double sum = 0;
     for (const ToneWindows* sensor : sensors)
       for (const ToneWindow& w : sensor->windows)
-        for (const auto& order : power_of<1>(rotors, w, scale, {0.0})) sum += order[0];
+        for (const auto& order : power_of<1>(rotors, w, w.told, scale, {0.0})) sum += order[0];
     return sum;
   };
   // Half the width of a line of twice the turns, then ever finer.
@@ -94,7 +108,9 @@ double likeliest_scale(const TurningRotors& rotors, const std::vector<const Tone
     std::vector<double> found(static_cast<std::size_t>(2 * each_side + 1));
     in_parallel(found.size(),
                 [&](std::size_t i) { found[i] = power(best - half + static_cast<double>(i) * step); });
-    best += static_cast<double>(std::ranges::max_element(found) - found.begin()) * step - half;
+    const auto at = std::ranges::max_element(found) - found.begin();
+    best += static_cast<double>(at) * step - half;
+    if (half == kFarthest && (at == 0 || at + 1 == std::ssize(found))) return kNaN;
     half = step, step = half / kFiner;
   }
   return best;

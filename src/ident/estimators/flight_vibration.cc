@@ -13,6 +13,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/core/parallel.h"
+#include "ident/estimators/flight_commanded_motion.h"
 #include "ident/estimators/flight_tone_search.h"
 #include "ident/estimators/flight_tone_sizes.h"
 #include "ident/estimators/statistics.h"
@@ -110,9 +111,11 @@ double find_tones(const FlightRecord& record, const TurningRotors& rotors, std::
   });
   const double scale =
       rotors.measured() ? 1.0 : likeliest_scale(rotors, {&sensors[0].windows, &sensors[1].windows});
+  if (std::isnan(scale)) return kNaN;
   bool found = false;
   for (Sensor& sensor : sensors) {
-    TonesFound tones = tones_that_stand_out(rotors, sensor.windows, scale);
+    TonesFound tones = tones_that_stand_out(rotors, sensor.windows,
+                                            commanded_in(record, sensor.group, sensor.windows), scale);
     found |= !tones.beyond_doubt.empty(), sensor.orders = std::move(tones.likely);
   }
   return found ? scale : kNaN;
