@@ -24,7 +24,8 @@ TEST(FlightStreams, RotorSpeedsThatAreLateAreReadEarlier) {
     if (!(5 * found.std < found.seconds)) continue;
     ++told;
     std::vector<Warning> warnings;
-    const std::vector<FlightLog> moved = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings);
+    const std::vector<FlightLog> moved =
+        aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings).logs;
     ASSERT_FALSE(moved.empty()) << seed << ": " << found.seconds << " +- " << found.std;
     EXPECT_NE(warnings[0].message.find("rotor speeds show the same motion"), std::string::npos);
     EXPECT_LT(std::abs(stream_offsets(record_of(vehicle, moved), vehicle.g).speeds.seconds), 1e-3) << seed;

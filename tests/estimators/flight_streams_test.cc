@@ -25,7 +25,7 @@ TEST(FlightStreams, StreamsAtOneTimeAreLeftAlone) {
     if (seed % 3 == 2) vehicle.parameters["sensor_delay.tau"].value = 0.012;  // rates and attitude alike
     const std::vector<FlightLog> logs{simulated(vehicle, scenarios[seed % scenarios.size()], seed)};
     std::vector<Warning> warnings;
-    EXPECT_TRUE(aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings).empty())
+    EXPECT_TRUE(aligned_streams(record_of(vehicle, logs), logs, vehicle.g, warnings).logs.empty())
         << seed << ": " << (warnings.empty() ? "" : warnings[0].message);
   }
 }
@@ -75,7 +75,7 @@ TEST(FlightStreams, ALateStreamIsFoundAndMoved) {
     ++told;
     EXPECT_NEAR(late.seconds, truth, 3e-3) << seed << " +- " << late.std;
     std::vector<Warning> warnings;
-    const std::vector<FlightLog> aligned = aligned_streams(record, logs, vehicle.g, warnings);
+    const std::vector<FlightLog> aligned = aligned_streams(record, logs, vehicle.g, warnings).logs;
     ASSERT_EQ(aligned.size(), 1) << seed;
     ASSERT_EQ(warnings.size(), 1) << seed;
     EXPECT_EQ(warnings[0].code, "stream_offset");
@@ -106,7 +106,7 @@ TEST(FlightStreams, FilteredRatesAreReadEarlierAndTheForceWithThem) {
     ++told;
     EXPECT_NEAR(rates.seconds, lag, 4e-4 + 3 * rates.std) << seed << " +- " << rates.std;
     std::vector<Warning> warnings;
-    const std::vector<FlightLog> aligned = aligned_streams(record, logs, vehicle.g, warnings);
+    const std::vector<FlightLog> aligned = aligned_streams(record, logs, vehicle.g, warnings).logs;
     ASSERT_EQ(aligned.size(), 1) << seed;
     ASSERT_EQ(warnings.size(), 1) << seed;
     EXPECT_NE(warnings[0].message.find("with the specific force"), std::string::npos) << warnings[0].message;

@@ -39,7 +39,7 @@ struct Aligned {
 inline Aligned aligned(const Vehicle& vehicle, const FlightLog& log) {
   const std::vector<FlightLog> logs{log};
   Aligned out;
-  out.logs = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, out.warnings);
+  out.logs = aligned_streams(record_of(vehicle, logs), logs, vehicle.g, out.warnings).logs;
   return out;
 }
 

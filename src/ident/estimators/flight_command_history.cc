@@ -59,4 +59,20 @@ std::vector<HeldCommand> command_history(const FlightLog& log, double from, doub
   return history;
 }
 
+std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps) {
+  const NewSamples anew = new_samples(log.t, log.delta);
+  std::vector<HeldCommand> history(log.delta.size());
+  for (std::size_t k = 0; k < anew.rows.size() && log.t[anew.rows[k]] <= to; ++k) {
+    const std::size_t row = anew.rows[k], next = k + 1 < anew.rows.size() ? anew.rows[k + 1] : row;
+    if (next != row && log.t[next] < from) continue;
+    const double apart = log.t[next] - log.t[row];
+    const double count = apart < kLongest ? std::max(1.0, steps * std::round(apart / anew.apart)) : 1.0;
+    for (std::size_t n = 0; n < history.size(); ++n)
+      for (double j = 0; j < count; ++j)
+        history[n].append(log.t[row] + j / count * apart,
+                          log.delta[n][row] + j / count * (log.delta[n][next] - log.delta[n][row]));
+  }
+  return history;
+}
+
 }  // namespace ident

@@ -13,4 +13,7 @@ namespace ident {
 /// line between those before and after.
 std::vector<HeldCommand> command_history(const FlightLog& log, double from, double to);
 
+/// The same as if commands went on from one to the next in so many steps along a line.
+std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps);
+
 }  // namespace ident

@@ -135,11 +135,12 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
       without_vibration(entry.record, given_logs, entry.vibration, result.warnings);
   const std::span<const FlightLog> logs = still.empty() ? given_logs : std::span<const FlightLog>(still);
   if (!still.empty()) entry.record = make_flight_record(vehicle, entry.p, logs);
-  const std::vector<FlightLog> aligned = aligned_streams(entry.record, logs, vehicle.g, result.warnings);
+  const auto [aligned, turns_apart] = aligned_streams(entry.record, logs, vehicle.g, result.warnings);
   const std::span<const FlightLog> in_time = aligned.empty() ? logs : std::span<const FlightLog>(aligned);
   const std::vector<FlightLog> white = whitened_sensors(in_time, result.warnings);
   if (const auto& moved = white.empty() ? aligned : white; !moved.empty())
     entry.record = make_flight_record(vehicle, entry.p, moved);
+  entry.record.turns_apart = turns_apart;
   for (const FlightLog& log : logs) {
     result.inputs.push_back(log.file);
     tell(log.warnings);

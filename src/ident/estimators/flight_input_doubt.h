@@ -1,4 +1,4 @@
-// What a fit owes to how measured rotor speeds, its input, were smoothed.
+// What a fit owes to how its input was read: how measured rotor speeds were smoothed, and at which time.
 #pragma once
 
 #include "ident/estimators/flight_fit.h"
@@ -11,5 +11,9 @@ bool has_noisy_input(const FlightRecord& record);
 /// How far the shared unknowns of a fit move where its input is smoothed less; zero where commands are the
 /// input. The fit's covariance knows nothing of it.
 Eigen::VectorXd moved_by_rougher_speeds(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
+
+/// The same where rates and attitude are not in time with each other: commands are with one of them, it is
+/// not known which, and a free dead time is off by as much.
+Eigen::VectorXd moved_by_time(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
 
 }  // namespace ident

@@ -60,6 +60,8 @@ struct FlightRecord {
   double interval = 0.0;                  ///< median time between rows, s
   double duration = 0.0;                  ///< of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
+  double turns_apart =
+      0.0;  ///< s that rates and attitude were apart in the logs: one of them was not in time
   std::vector<Warning> warnings;
   std::vector<double> p;  ///< the stated constants: states to start from are simulated with them, and what
                           ///< errors of speeds do is reckoned by them

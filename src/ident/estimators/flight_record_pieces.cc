@@ -8,9 +8,19 @@
 namespace ident {
 
 FlightRecord without_arcs(const FlightRecord& record) {
-  return {record.vehicle,  {},          record.logs,     record.signals,  record.layout,
-          record.sigma,    record.slow, record.interval, record.duration, record.motor_rate,
-          record.warnings, record.p};
+  return {record.vehicle,
+          {},
+          record.logs,
+          record.signals,
+          record.layout,
+          record.sigma,
+          record.slow,
+          record.interval,
+          record.duration,
+          record.motor_rate,
+          record.turns_apart,
+          record.warnings,
+          record.p};
 }
 
 FlightState<double> FlightArc::start(std::size_t row) const {

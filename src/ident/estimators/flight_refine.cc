@@ -11,6 +11,7 @@
 #include "ident/core/format_number.h"
 #include "ident/estimators/flight_air_share.h"
 #include "ident/estimators/flight_channels.h"
+#include "ident/estimators/flight_commands_held.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_first_order.h"
 #include "ident/estimators/flight_hover.h"
@@ -194,6 +195,8 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, std::
   doubt_coarse_commands(result);
   if (!record.signals.commands) doubt_seldom_speeds(result);
   doubt_seldom_commands(result, record, logs);
+  if (!seldom_input(record, logs))
+    doubt_commands_between_rows(result, record, logs, commands_held(record, logs, theta, fit));
   warn_of_air(result, air);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   warn_about(result, theta, fit);
@@ -266,8 +269,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     return refined_by_speeds(vehicle, logs, options, jitter);
   }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
-  const VectorXd moved = moved_by_rougher_speeds(record, theta, fit);
-  fit.covariance += moved * moved.transpose();
+  for (const VectorXd& moved :
+       {moved_by_rougher_speeds(record, theta, fit), moved_by_time(record, theta, fit)})
+    fit.covariance += moved * moved.transpose();
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);
   result.parameters = flight_parameters(theta, body, "flightlog");

@@ -27,6 +27,7 @@ constexpr double kShortestOfRates = 1e-3, kShortestOfForce = 8e-3;
 constexpr double kShortestOfSpeeds = 4e-3;
 constexpr double kHalfSure = 2.0;      ///< standard deviations of what another sensor tells more sharply
 constexpr double kSureOfSpeeds = 3.0;  ///< standard deviations
+constexpr double kSureOfTurns = 3.5;   ///< standard deviations
 /// s by which an autopilot's filters make the sensors of its IMU late
 constexpr double kLongestFilter = 8e-3;
 
@@ -242,17 +243,19 @@ void move_speeds(const StreamOffsets& found, double interval, Moves& moves) {
 
 }  // namespace
 
-std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
-                                       double gravity, std::vector<Warning>& warnings) {
+AlignedStreams aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs, double gravity,
+                               std::vector<Warning>& warnings) {
   const StreamOffsets found = stream_offsets(record, gravity);
   Moves moves;
   move_turns(found, record.interval, moves);
   move_force(found, record, moves);
   move_speeds(found, record.interval, moves);
-  if (!moves.any()) return {};
+  const double apart = std::abs(found.rates.seconds);
+  AlignedStreams aligned{{}, apart > kSureOfTurns * found.rates.std ? apart : 0.0};
+  if (!moves.any()) return aligned;
   warnings.insert(warnings.end(), moves.said.begin(), moves.said.end());
-  std::vector<FlightLog> out(logs.begin(), logs.end());
-  for (FlightLog& log : out) {
+  aligned.logs.assign(logs.begin(), logs.end());
+  for (FlightLog& log : aligned.logs) {
     const auto earlier = [&](auto& columns, double seconds) {
       if (seconds == 0) return;
       for (auto& column : columns) read_later(log.t, column, seconds);
@@ -262,7 +265,7 @@ std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<con
     earlier(log.v_W, moves.path), earlier(log.x_W, moves.path);
     earlier(log.Omega, moves.speeds);
   }
-  return out;
+  return aligned;
 }
 
 }  // namespace ident

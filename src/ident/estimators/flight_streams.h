@@ -21,9 +21,12 @@ StreamOffsets stream_offsets(const FlightRecord& record, double gravity);
 /// Rates and specific force that are late as by a filter, or against rotor speeds too, are moved to the
 /// attitude, or else attitude, velocity and position to the rates. What is then left between force and
 /// velocity moves the force, or the path where rotor speeds say that the force is in time; rotor speeds that
-/// are late to the force, and as late to the rates where these tell, move last. Empty where nothing has to be
-/// moved.
-std::vector<FlightLog> aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs,
-                                       double gravity, std::vector<Warning>& warnings);
+/// are late to the force, and as late to the rates where these tell, move last.
+struct AlignedStreams {
+  std::vector<FlightLog> logs;  ///< empty where nothing has to be moved
+  double turns_apart = 0.0;  ///< s between what rates and attitude show, as given; 0 where that may be chance
+};
+AlignedStreams aligned_streams(const FlightRecord& record, std::span<const FlightLog> logs, double gravity,
+                               std::vector<Warning>& warnings);
 
 }  // namespace ident

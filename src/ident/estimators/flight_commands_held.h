@@ -1,0 +1,33 @@
+// Whether commands held from row to row as a log has them, or a controller that is faster than its log went
+// on between them.
+#pragma once
+
+#include <span>
+
+#include "ident/core/result.h"
+#include "ident/estimators/flight_fit.h"
+
+namespace ident {
+
+/// How much better held commands explain a flight than commands that go on along a line to the next, each
+/// with the dead time that suits it.
+struct HeldCommands {
+  double better = 0.0;    ///< fall of the cost
+  double expected = 0.0;  ///< that, if they did hold: the square of what the two predictions differ by
+
+  /// Whether the flight says that they did not: by more than chance, and by a good part.
+  bool refuted() const;
+};
+
+/// The same at a fit, its noise taken for known; expects nothing where commands hardly change from one to the
+/// next, so that it does not matter. Takes two fits of the dead time.
+HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
+                           const FlightFit& fit);
+
+/// Where commands did not hold, what follows them does not count as known, and a warning
+/// `commands_between_rows` says so; where they are rough and come at less than 110 Hz, neither do moments of
+/// inertia.
+void doubt_commands_between_rows(Result& result, const FlightRecord& record, std::span<const FlightLog> logs,
+                                 const HeldCommands& held);
+
+}  // namespace ident

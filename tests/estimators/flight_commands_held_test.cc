@@ -1,0 +1,85 @@
+// Whether commands held from row to row is told by the flight itself.
+#include "ident/estimators/flight_commands_held.h"
+
+#include <gtest/gtest.h>
+
+#include "ident/estimators/flight_command_history.h"
+#include "ident/estimators/flight_refine.h"
+#include "ident/estimators/flight_seldom_commands.h"
+#include "support/known_quad.h"
+
+namespace ident {
+namespace {
+
+// Every so many rows of a log that were not logged.
+FlightLog thinned(const FlightLog& log, std::size_t every) {
+  FlightLog out = log;
+  const auto thin = [&](std::vector<double>& column) {
+    for (std::size_t i = 0; i * every < column.size(); ++i) column[i] = column[i * every];
+    column.resize((column.size() + every - 1) / every);
+  };
+  const auto thin_all = [&](auto& columns) {
+    for (auto& column : columns) thin(column);
+  };
+  thin(out.t);
+  thin_all(out.delta), thin_all(out.w_B), thin_all(out.f_B), thin_all(out.q_WB), thin_all(out.v_W),
+      thin_all(out.x_W);
+  out.Omega.clear();
+  return out;
+}
+
+// Flown by the rates of a gyro, whose noise is in the commands.
+FlightLog flown(double rate) {
+  SimulationOptions options;
+  options.duration = 20, options.by_gyro = true, options.rate = rate, options.seed = 11;
+  options.signals.rotor_speeds = 0;
+  return simulate_flight(testing::quad(), options).log;
+}
+
+TEST(HeldCommands, ThatHoldAreNotDoubted) {
+  const Vehicle vehicle = testing::known(testing::quad());
+  for (const double rate : {100.0, 250.0}) {
+    const FlightLog log = flown(rate);
+    EXPECT_GT(roughness(log), rate > 200 ? 0.1 : 0.22);  // and they were looked at
+    const Result result = refine_flight(vehicle, std::vector{log}, {.validate = false});
+    EXPECT_FALSE(result.has_warning("commands_between_rows")) << rate;
+    EXPECT_TRUE(result.find("omega_m")->identifiable) << rate;
+  }
+}
+
+TEST(HeldCommands, OfAControllerThatIsFasterThanItsLogAreToldByTheFlight) {
+  const Vehicle vehicle = testing::known(testing::quad());
+  const FlightLog log = thinned(flown(1000), 10);
+  const Result result = refine_flight(vehicle, std::vector{log}, {.validate = false});
+  EXPECT_TRUE(result.has_warning("commands_between_rows"));
+  for (const char* name : {"omega_m", "zeta_m", "dead_time", "Jp"})
+    EXPECT_FALSE(result.find(name)->identifiable) << name;
+  EXPECT_TRUE(result.find("km")->identifiable);
+}
+
+// 4 times what was expected of commands that hold is as good as nothing of it.
+TEST(HeldCommands, AreRefutedByMoreThanChance) {
+  EXPECT_FALSE((HeldCommands{.better = 0.0, .expected = 0.0}).refuted());
+  EXPECT_FALSE((HeldCommands{.better = 100.0, .expected = 100.0}).refuted());
+  EXPECT_FALSE((HeldCommands{.better = -4.0, .expected = 1.0}).refuted());  // chance
+  EXPECT_TRUE((HeldCommands{.better = -6.0, .expected = 1.0}).refuted());
+  EXPECT_TRUE((HeldCommands{.better = 400.0, .expected = 100.0}).refuted());
+  EXPECT_TRUE((HeldCommands{.better = -100.0, .expected = 100.0}).refuted());
+  EXPECT_FALSE((HeldCommands{.better = 8e5, .expected = 1e6}).refuted());  // of steps that were not the last
+}
+
+TEST(HeldCommands, AlongLinesGoOnToTheNextInSteps) {
+  FlightLog log;
+  log.t = {0.0, 0.01, 0.02, 0.03, 0.5};
+  log.delta = {{0.1, 0.5, 0.3, 0.3, 0.9}};
+  const HeldCommand line = commands_along_lines(log, 0.0, 1.0, 4)[0];
+  EXPECT_DOUBLE_EQ(line.at(0.0), 0.1);
+  EXPECT_DOUBLE_EQ(line.at(0.0051), 0.3);
+  EXPECT_DOUBLE_EQ(line.at(0.0099), 0.4);
+  EXPECT_DOUBLE_EQ(line.at(0.0101), 0.5);
+  EXPECT_DOUBLE_EQ(line.at(0.4), 0.3);  // over a gap there is no line
+  EXPECT_DOUBLE_EQ(line.at(0.6), 0.9);
+}
+
+}  // namespace
+}  // namespace ident
