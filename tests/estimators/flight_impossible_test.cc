@@ -52,6 +52,21 @@ TEST(FlightImpossible, WhatGoesWithANegativeDeadTimeIsNotKnown) {
   EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time Jzz ");
 }
 
+TEST(FlightImpossible, WhatIsKnownOnlyTogetherWithOneThatIsDrawnAwayIsNotKnown) {
+  for (const double drawn : {9e-6, 6.3e-6}) {  // stated 6e-6 within 0.6e-6
+    for (const bool told_by_flight : {false, true}) {
+      Result result;
+      result.parameters = {told("kT", drawn, 6e-6), told("km", 800, 900), told("Jxx", 3e-3, 3e-3)};
+      result.parameters[0].identifiable = told_by_flight;
+      result.correlation = {{"kT", "km", "Jxx"}, Eigen::Matrix3d::Identity()};
+      result.correlation.matrix(0, 1) = result.correlation.matrix(1, 0) = -0.99;
+      result.correlation.matrix(0, 2) = result.correlation.matrix(2, 0) = 0.6;
+      doubt_drawn_away(result);
+      EXPECT_EQ(not_known(result), told_by_flight ? "" : drawn > 8e-6 ? "kT km " : "kT ");
+    }
+  }
+}
+
 TEST(FlightImpossible, WhatTheSelfTestFoundLeavesOpenWhatDependsOnIt) {
   const auto after = [](const char* warning, void (*doubt)(Result&)) {
     Result result = with_motors(25, 1.0, 0.004);

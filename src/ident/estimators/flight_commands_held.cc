@@ -21,17 +21,17 @@
 namespace ident {
 namespace {
 
-constexpr double kBeyondChance = 3.0;                 // standard deviations
-constexpr double kGoodPart = 0.3;                     // of what is expected
-constexpr double kSmooth = 0.22;                      // roughness() of commands whose steps do not show
-constexpr double kRough = 0.35, kSeldom = 1.0 / 110;  // where moments of inertia came out 3 to 6 % off
-constexpr double kHistory = 1.0;                      // s of commands before an arc
+constexpr double kBeyondChance = 3.0;  // standard deviations
+constexpr double kGoodPart = 0.3;      // of what is expected
+constexpr double kSmooth = 0.22;       // roughness() of commands whose steps do not show
+constexpr double kSeldom = 1.0 / 110;  // s, where moments of inertia came out 3 to 10 % off
+constexpr double kHistory = 1.0;       // s of commands before an arc
 constexpr int kSteps = 4, kMostSteps = 10;
 
 using Eigen::VectorXd;
 
-bool are_rough(std::span<const FlightLog> logs, double least) {
-  return std::ranges::any_of(logs, [&](const FlightLog& log) { return roughness(log) > least; });
+bool are_smooth(std::span<const FlightLog> logs) {
+  return std::ranges::all_of(logs, [](const FlightLog& log) { return !(roughness(log) > kSmooth); });
 }
 
 FlightRecord along_lines(FlightRecord record, std::span<const FlightLog> logs) {
@@ -95,7 +95,7 @@ bool HeldCommands::refuted() const {
 
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit) {
-  if (!record.signals.commands || !are_rough(logs, kSmooth)) return {};
+  if (!record.signals.commands || are_smooth(logs)) return {};
   const Theta own = with_free_dead_time(record, theta, fit);
   try {
     const Explained held = explained(record, own, fit),
@@ -111,7 +111,7 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
   if (!held.refuted()) return;
   constexpr const char* kWhy = "commands went on between those that were logged";
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
-  const bool inertia = input_interval(record, logs) > kSeldom && are_rough(logs, kRough);
+  const bool inertia = input_interval(record, logs) > kSeldom;
   if (inertia) doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   result.warn("commands_between_rows",
               fmt::format("the vehicle does not fly as commands that hold from row to row would make it: the "

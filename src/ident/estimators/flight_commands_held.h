@@ -25,8 +25,7 @@ HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog
                            const FlightFit& fit);
 
 /// Where commands did not hold, what follows them does not count as known, and a warning
-/// `commands_between_rows` says so; where they are rough and come at less than 110 Hz, neither do moments of
-/// inertia.
+/// `commands_between_rows` says so; where they come at less than 110 Hz, neither do moments of inertia.
 void doubt_commands_between_rows(Result& result, const FlightRecord& record, std::span<const FlightLog> logs,
                                  const HeldCommands& held);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ident/core/format_number.h"
 
@@ -78,6 +79,19 @@ void doubt_contradicted(Result& result) {
   if (result.has_warning("contradicted"))
     doubt_all(result, {"kT", "km", "omega_m", "zeta_m", "dead_time", "Omega_0", "kQ", "Jzz"},
               "depends on a constant that the logs contradict");
+}
+
+void doubt_drawn_away(Result& result) {
+  constexpr double kFar = 3.0, kTogether = 0.95;  // standard deviations as stated; correlation
+  std::vector<std::string> drawn;
+  for (const Parameter& p : result.parameters)
+    if (!p.identifiable && p.prior_value && p.prior_std &&
+        std::abs(p.value - *p.prior_value) > kFar * *p.prior_std)
+      drawn.push_back(p.name);
+  for (Parameter& p : result.parameters)
+    for (const std::string& other : drawn)
+      if (p.name != other && std::abs(result.correlation.of(p.name, other)) > kTogether)
+        p.doubt("known only together with " + other + ", which flight draws far from what was stated");
 }
 
 }  // namespace ident

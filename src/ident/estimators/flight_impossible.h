@@ -38,4 +38,8 @@ void doubt_coarse_commands(Result& result);
 /// them was not measured: its moments of inertia, and those of the rotors, are not known.
 void doubt_seldom_speeds(Result& result);
 
+/// A constant that flight does not tell, and yet draws far from what was stated of it, makes up for
+/// something: those that are known only together with it do not count as known either.
+void doubt_drawn_away(Result& result);
+
 }  // namespace ident

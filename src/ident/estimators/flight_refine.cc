@@ -199,6 +199,7 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, std::
     doubt_commands_between_rows(result, record, logs, commands_held(record, logs, theta, fit));
   warn_of_air(result, air);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
+  doubt_drawn_away(result);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);
