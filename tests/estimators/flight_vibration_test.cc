@@ -178,7 +178,7 @@ TEST(Vibration, WhatRotorsWereToldToDoIsNoTone) {
   vehicle.parameters.at("Jp").value *= 25;
   const FlightLog quiet = flown(vehicle, 8, true);
   FlightLog told = quiet;
-  constexpr double kSize = 0.3, kHz = 75.0;  // of the command
+  constexpr double kSize = 0.5, kHz = 75.0;  // of the command
   const std::complex<double> s(0, 2 * M_PI * kHz);
   const double omega_m = vehicle.value("omega_m"), zeta_m = vehicle.value("zeta_m");
   const std::complex<double> Omega = vehicle.value("km") * kSize * omega_m * omega_m /
@@ -190,11 +190,29 @@ TEST(Vibration, WhatRotorsWereToldToDoIsNoTone) {
     for (std::size_t n = 0; n < 4; ++n) told.delta[n][i] += vehicle.rotors[n].s * kSize * std::sin(angle);
     told.w_B[2][i] += yaw * std::sin(angle + 1.0);
   }
-  FlightLog shaken_only = told;
+  FlightLog shaken_only = told, passed_on = told;
   shaken_only.delta = quiet.delta;
-  for (FlightLog* log : {&told, &shaken_only}) log->Omega.clear();
+  for (std::size_t i = 0; i < told.rows(); ++i)  // an eighth of it comes back from the motors
+    passed_on.w_B[2][i] += 7 * (told.w_B[2][i] - quiet.w_B[2][i]);
+  for (FlightLog* log : {&told, &shaken_only, &passed_on}) log->Omega.clear();
   EXPECT_FALSE(freed(vehicle, told).vibration.found());
-  EXPECT_TRUE(freed(vehicle, shaken_only).vibration.found());
+  const Vibration felt = freed(vehicle, shaken_only).vibration,
+                  answered = freed(vehicle, passed_on).vibration;
+  EXPECT_TRUE(felt.found());
+  EXPECT_FALSE(felt.passed_on);
+  EXPECT_TRUE(answered.found());
+  EXPECT_TRUE(answered.passed_on);
+  Result result;
+  for (const char* name : {"omega_m", "Jxx"}) {
+    Parameter p;
+    p.name = name, p.identifiable = true;
+    result.parameters.push_back(p);
+  }
+  doubt_passed_on(result, felt);
+  EXPECT_TRUE(result.find("omega_m")->identifiable);
+  doubt_passed_on(result, answered);
+  EXPECT_FALSE(result.find("omega_m")->identifiable);
+  EXPECT_TRUE(result.find("Jxx")->identifiable);
 }
 
 // Where power grows to the end of what simulated speeds may be off by, something else lies beyond.

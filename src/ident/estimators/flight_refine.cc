@@ -182,7 +182,8 @@ struct Refined {
 };
 
 // Findings about the fit, and what does not count as known because of them.
-void judge(Result& result, const Refined& refined, const SteadyPush& push, std::vector<Warning>& tested) {
+void judge(Result& result, const Refined& refined, const SteadyPush& push, const Vibration& vibration,
+           std::vector<Warning>& tested) {
   const auto& [vehicle, logs, record, theta, fit, body, air] = refined;
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
@@ -199,6 +200,7 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, std::
     doubt_commands_between_rows(result, record, logs, commands_held(record, logs, theta, fit));
   warn_of_air(result, air);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
+  doubt_passed_on(result, vibration);
   doubt_drawn_away(result);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
@@ -287,7 +289,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
 
   const Refined refined{vehicle, logs, record, theta, fit, body, air_share(record, fit)};
   const SteadyPush push = steady_push(record, fit);
-  judge(result, refined, push, tested);
+  judge(result, refined, push, vibration, tested);
   show(result, refined, push, vibration, options.shown);
   if (options.validate && record.duration > 6) validate(result, record, theta, fit, options.shown);
   result.verdict = verdict(result, record.duration);

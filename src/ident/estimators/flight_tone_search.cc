@@ -20,6 +20,7 @@ constexpr double kLikely = 3.5;
 // Times the power that commands make there, which may be that of motors of which nothing is known. A tone
 // that went through a controller to the motors comes back with a hundredth of its size and less.
 constexpr double kCommanded = 30.0;
+constexpr double kPassedOn = 0.3;  // share of what commands make there that is more than beside it
 constexpr std::size_t kFewestWindows = 10;
 constexpr double kFarthest = 0.1;  // by which simulated speeds may be off
 
@@ -49,42 +50,54 @@ std::array<std::array<double, Sides>, kOrders> power_of(const TurningRotors& rot
   return out;
 }
 
+constexpr std::array kSides = {0.0, -4.0, -2.5, -1.5, 1.5, 2.5, 4.0};
+using Powers = std::array<std::array<double, kSides.size()>, kOrders>;
+
+// Power at the tones of an order in all windows, by how much that is more than beside them, and by how much
+// chance scatters it.
+struct Line {
+  double there = 0.0, more = 0.0, chance = 0.0;
+};
+
+Line line_of(const std::vector<Powers>& windows, std::size_t order) {
+  const double n = static_cast<double>(windows.size());
+  std::array<double, kSides.size()> sums{};
+  for (const Powers& window : windows)
+    for (std::size_t side = 0; side < sums.size(); ++side) sums[side] += window[order][side];
+  std::vector<double> squares;  // of each side
+  for (std::size_t side = 1; side < sums.size(); ++side) {
+    double& square = squares.emplace_back(0.0);
+    for (const Powers& window : windows)
+      square += std::pow(window[order][side] - sums[side] / n, 2) * n / (n - 1);
+  }
+  // Beside one tone there may be another: what is usual there counts.
+  const double beside = median(std::vector<double>(sums.begin() + 1, sums.end()));
+  return {sums[0], sums[0] - beside, std::sqrt(median(squares))};
+}
+
 }  // namespace
 
 TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& sensor,
                                 const std::vector<Eigen::MatrixXd>& commanded, double scale) {
-  static constexpr std::array kSides = {0.0, -4.0, -2.5, -1.5, 1.5, 2.5, 4.0};
-  std::vector<std::array<std::array<double, kSides.size()>, kOrders>> found(sensor.windows.size());
-  std::vector<std::array<std::array<double, 1>, kOrders>> by_commands(found.size());
+  std::vector<Powers> found(sensor.windows.size()), by_commands(found.size());
   in_parallel(found.size(), [&](std::size_t i) {
     const ToneWindow& w = sensor.windows[i];
     found[i] = power_of(rotors, w, w.told, scale, kSides);
     if (commanded[i].size() == 0) return;
     Eigen::MatrixXd told(commanded[i].rows(), 3);
     for (Index axis = 0; axis < 3; ++axis) told.col(axis) = w.weighted(commanded[i].col(axis), axis);
-    by_commands[i] = power_of<1>(rotors, w, told, scale, {0.0});
+    by_commands[i] = power_of(rotors, w, told, scale, kSides);
   });
   TonesFound out;
   if (found.size() < kFewestWindows) return out;
   for (std::size_t k = 0; k < kOrders; ++k) {
-    std::array<double, kSides.size()> sums{};
-    for (const auto& window : found)
-      for (std::size_t side = 0; side < sums.size(); ++side) sums[side] += window[k][side];
-    // Beside one tone there may be another: what is usual there counts.
-    std::vector<double> beside(sums.begin() + 1, sums.end());
-    double commanded_there = 0;
-    for (const auto& window : by_commands) commanded_there += window[k][0];
-    const double more = sums[0] - median(beside) - kCommanded * commanded_there,
-                 n = static_cast<double>(found.size());
-    std::vector<double> squares;  // by how much chance scatters it, of each side
-    for (std::size_t side = 1; side < sums.size(); ++side) {
-      double& square = squares.emplace_back(0.0);
-      for (const auto& window : found) square += std::pow(window[k][side] - sums[side] / n, 2) * n / (n - 1);
-    }
-    const double square = median(squares);
+    const Line seen = line_of(found, k), told = line_of(by_commands, k);
+    const double more = seen.more - kCommanded * told.there;
     const int order = static_cast<int>(k) + 1;
-    if (more > kBeyondDoubt * std::sqrt(square)) out.beyond_doubt.push_back(order);
-    if (more > kLikely * std::sqrt(square)) out.likely.push_back(order);
+    if (more > kLikely * seen.chance) out.likely.push_back(order);
+    if (!(more > kBeyondDoubt * seen.chance)) continue;
+    out.beyond_doubt.push_back(order);
+    out.passed_on |= told.more > std::max(kLikely * told.chance, kPassedOn * told.there);
   }
   return out;
 }

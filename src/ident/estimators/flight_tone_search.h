@@ -12,6 +12,7 @@ namespace ident {
 /// too.
 struct TonesFound {
   std::vector<int> beyond_doubt, likely;  ///< the latter where another one is beyond doubt
+  bool passed_on = false;                 ///< commands have such a tone too
 };
 TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& sensor,
                                 const std::vector<Eigen::MatrixXd>& commanded, double scale);

@@ -14,6 +14,7 @@
 #include "ident/core/format_number.h"
 #include "ident/core/parallel.h"
 #include "ident/estimators/flight_commanded_motion.h"
+#include "ident/estimators/flight_impossible.h"
 #include "ident/estimators/flight_tone_search.h"
 #include "ident/estimators/flight_tone_sizes.h"
 #include "ident/estimators/statistics.h"
@@ -39,6 +40,7 @@ struct Sensor {
   bool logged;
   ToneWindows windows;
   std::vector<int> orders;  // of the tones it feels
+  bool passed_on;           // to the motors
 };
 
 // Every so many of many: enough to tell variances by.
@@ -117,6 +119,7 @@ double find_tones(const FlightRecord& record, const TurningRotors& rotors, std::
     TonesFound tones = tones_that_stand_out(rotors, sensor.windows,
                                             commanded_in(record, sensor.group, sensor.windows), scale);
     found |= !tones.beyond_doubt.empty(), sensor.orders = std::move(tones.likely);
+    sensor.passed_on = tones.passed_on;
   }
   return found ? scale : kNaN;
 }
@@ -131,6 +134,7 @@ Vibration take_out_all(const FlightRecord& record, std::vector<FlightLog>& logs,
   double together = 0;
   for (const Sensor& sensor : sensors) {
     if (sensor.orders.empty()) continue;
+    out.passed_on |= sensor.passed_on;
     const ToneSizes sizes(rotors, sensor.windows, sensor.orders, scale);
     together += sizes.log_likelihood();
     const Vector3d of_axis = sizes.variance().colwise().sum(), per_noise = sizes.noise().cwiseInverse() / 3;
@@ -163,6 +167,7 @@ std::string told(const Vibration& vibration) {
   if (constexpr double kWorthTelling = 0.005; vibration.left_out > kWorthTelling)
     lost = fmt::format("; where it passes for motion, in {:.0f} % of the samples, nothing counts",
                        100 * std::max(vibration.left_out, 0.01));
+  if (vibration.passed_on) lost += "; the controller passes it on to the motors, of which nothing is known";
   return fmt::format(
       "the rotors' turns show in {}, which is taken out{}; {}", fmt::join(felt, " and "), lost,
       vibration.unbalanced() ? vibration.what_is_unbalanced() : "log what went through a filter");
@@ -198,7 +203,7 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   const Signals& s = record.signals;
   if (!s.commands && !s.rotor_speeds) return {};
   std::array<Sensor, 2> sensors = {
-      {{&FlightLog::w_B, kGyro, s.rates, {}, {}}, {&FlightLog::f_B, kForce, s.force, {}, {}}}};
+      {{&FlightLog::w_B, kGyro, s.rates, {}, {}, false}, {&FlightLog::f_B, kForce, s.force, {}, {}, false}}};
   std::array<bool, 6> uneven{};
   in_parallel(uneven.size(), [&](std::size_t k) {
     const Sensor& sensor = sensors[k / 3];
@@ -212,6 +217,12 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   vibration = take_out_all(record, out, rotors, sensors, scale);
   warnings.push_back({"vibration", told(vibration)});
   return out;
+}
+
+void doubt_passed_on(Result& result, const Vibration& vibration) {
+  if (vibration.passed_on)
+    doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"},
+              "the controller passes vibration on to the motors");
 }
 
 }  // namespace ident

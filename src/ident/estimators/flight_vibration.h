@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/core/result.h"
 #include "ident/data/flight_log.h"
 #include "ident/estimators/flight_record.h"
 
@@ -21,6 +22,7 @@ struct Vibration {
       1.0;  ///< of the rotors, where not all were measured, over those simulated from the commands
   bool one_alone = false;   ///< one rotor explains it about as well as all of them
   bool told_apart = false;  ///< and none of the others would
+  bool passed_on = false;   ///< the controller answers to it
   double left_out = 0.0;    ///< share of the samples of a sensor that count as none
 
   bool found() const { return !of_rotor.empty(); }
@@ -38,5 +40,9 @@ struct Vibration {
 /// data most likely. Samples in which a tone that matters is folded to where vehicles move count as none.
 std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<const FlightLog> logs,
                                          Vibration& vibration, std::vector<Warning>& warnings);
+
+/// Where a controller answers to it, what rotors do as fast as they turn is taken out with it: what is known
+/// of motors is not known then.
+void doubt_passed_on(Result& result, const Vibration& vibration);
 
 }  // namespace ident
