@@ -33,7 +33,14 @@ TEST(FlightImpossible, MotorsThatHardlyFollowTheirCommandsAreNoMotors) {
   Result result = with_motors(0.3, 0.9, 0.004);  // 6 s
   doubt_motors_without_effect(result);
   EXPECT_TRUE(result.has_warning("motors_without_effect"));
-  EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time km ");
+  EXPECT_EQ(not_known(result), "omega_m zeta_m dead_time km Jxx ");
+  result = with_motors(0.0, 0.0, 0.004);  // as slow as numbers go
+  doubt_motors_without_effect(result);
+  EXPECT_TRUE(result.has_warning("motors_without_effect"));
+  result = with_motors(0.3, 0.9, 0.004);
+  for (Parameter& p : result.parameters) p.prior_value.reset();
+  doubt_motors_without_effect(result);
+  EXPECT_TRUE(result.has_warning("motors_without_effect")) << "whatever was stated";
   result = with_motors(4, 1.9, 0.004);  // 0.95 s: slow, but there are such motors
   doubt_motors_without_effect(result);
   EXPECT_TRUE(result.warnings.empty());

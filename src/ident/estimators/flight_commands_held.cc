@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kBeyondChance = 3.0;  // standard deviations
 constexpr double kGoodPart = 0.3;      // of what is expected
+constexpr double kMatters = 0.02;      // of the motors' lag
 constexpr double kSmooth = 0.22;       // roughness() of commands whose steps do not show
 constexpr double kSeldom = 1.0 / 110;  // s, where moments of inertia came out 3 to 10 % off
 constexpr double kHistory = 1.0;       // s of commands before an arc
@@ -32,6 +33,13 @@ using Eigen::VectorXd;
 
 bool are_smooth(std::span<const FlightLog> logs) {
   return std::ranges::all_of(logs, [](const FlightLog& log) { return !(roughness(log) > kSmooth); });
+}
+
+// To the motors: of 1 kHz logs it does not.
+bool half_a_row_matters(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
+                        const FlightFit& fit) {
+  const std::vector<double> p = theta.p(fit.u);
+  return input_interval(record, logs) / 2 > kMatters * 2 * p[param::zeta_m] / p[param::omega_m];
 }
 
 FlightRecord along_lines(FlightRecord record, std::span<const FlightLog> logs) {
@@ -95,7 +103,8 @@ bool HeldCommands::refuted() const {
 
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit) {
-  if (!record.signals.commands || are_smooth(logs)) return {};
+  if (!record.signals.commands || are_smooth(logs) || !half_a_row_matters(record, logs, theta, fit))
+    return {};
   const Theta own = with_free_dead_time(record, theta, fit);
   try {
     const Explained held = explained(record, own, fit),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ident/core/format_number.h"
 
@@ -49,19 +50,24 @@ void doubt_negative_rotor_inertia(Result& result) {
 void doubt_motors_without_effect(Result& result) {
   constexpr double kSlower = 5.0, kLong = 1.0;  // times the lag as stated; s, slower than any motor
   const Parameter *omega_m = result.find("omega_m"), *zeta_m = result.find("zeta_m");
-  if (!omega_m || !zeta_m || !omega_m->prior_value || !zeta_m->prior_value) return;
-  const auto lag = [](double zeta, double omega) { return 2 * zeta / omega; };
+  if (!omega_m || !zeta_m) return;
+  const auto lag = [](double zeta, double omega) {
+    return omega > 0 ? 2 * zeta / omega : std::numeric_limits<double>::infinity();
+  };
   const double found = lag(zeta_m->value, omega_m->value),
-               stated = lag(*zeta_m->prior_value, *omega_m->prior_value);
+               stated = omega_m->prior_value && zeta_m->prior_value
+                            ? lag(*zeta_m->prior_value, *omega_m->prior_value)
+                            : 0.0;
   if (!(found > kLong && found > kSlower * stated)) return;
-  doubt_all(result, {"omega_m", "zeta_m", "dead_time", "km"},
+  doubt_all(result, {"omega_m", "zeta_m", "dead_time", "km", "Jxx", "Jyy", "Jzz"},
             "motors as fitted hardly follow their commands");
   result.warn(
       "motors_without_effect",
-      fmt::format("these logs fit best where rotors follow their commands after {} s, stated is {} s, and "
+      fmt::format("these logs fit best where rotors follow their commands after {} s{}, and "
                   "so hardly at all: the commands are not those of this vehicle or of this flight, or "
                   "the model lacks something larger (try ident gap)",
-                  format_number(found, 2), format_number(stated, 2)));
+                  format_number(found, 2),
+                  stated > 0 ? fmt::format(", stated is {} s", format_number(stated, 2)) : ""));
 }
 
 void doubt_coarse_commands(Result& result) {

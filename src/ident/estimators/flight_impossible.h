@@ -26,8 +26,8 @@ void doubt_negative_rotor_inertia(Result& result);
 /// After the warning `contradicted`: constants of motors and yaw do not count as identifiable.
 void doubt_contradicted(Result& result);
 
-/// Doubts the motors' constants, with a warning, where they come out far slower than stated and slower than
-/// any that fly: a fit that leaves the commands aside.
+/// Doubts the motors' constants and moments of inertia, with a warning, where motors come out far slower than
+/// stated, if they are, and slower than any that fly: a fit that leaves the commands aside.
 void doubt_motors_without_effect(Result& result);
 
 /// Doubts the motors' lag and their offset where the self-test found that commands were logged in coarse
