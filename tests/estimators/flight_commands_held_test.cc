@@ -79,6 +79,9 @@ TEST(HeldCommands, AlongLinesGoOnToTheNextInSteps) {
   EXPECT_DOUBLE_EQ(line.at(0.0101), 0.5);
   EXPECT_DOUBLE_EQ(line.at(0.4), 0.3);  // over a gap there is no line
   EXPECT_DOUBLE_EQ(line.at(0.6), 0.9);
+  log.delta.push_back(std::vector<double>(5, kNaN));  // a rotor of which nothing was logged
+  EXPECT_DOUBLE_EQ(commands_along_lines(log, 0.0, 1.0, 4)[0].at(0.6), 0.9);
+  EXPECT_DOUBLE_EQ(commands_along_lines(log, 0.0, 1.0, 4)[1].at(0.6), 0.0);
 }
 
 }  // namespace

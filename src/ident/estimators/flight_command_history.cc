@@ -61,6 +61,8 @@ std::vector<HeldCommand> command_history(const FlightLog& log, double from, doub
 
 std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps) {
   const NewSamples anew = new_samples(log.t, log.delta);
+  // Where they never came together, or not by then, there are no lines.
+  if (anew.rows.empty() || log.t[anew.rows.front()] > to) return command_history(log, from, to);
   std::vector<HeldCommand> history(log.delta.size());
   for (std::size_t k = 0; k < anew.rows.size() && log.t[anew.rows[k]] <= to; ++k) {
     const std::size_t row = anew.rows[k], next = k + 1 < anew.rows.size() ? anew.rows[k + 1] : row;
