@@ -84,5 +84,18 @@ TEST(HeldCommands, AlongLinesGoOnToTheNextInSteps) {
   EXPECT_DOUBLE_EQ(commands_along_lines(log, 0.0, 1.0, 4)[1].at(0.6), 0.0);
 }
 
+// Rates a row late against the attitude: commands may be in time with either.
+TEST(DeadTime, IsAsUncertainAsRatesAndAttitudeAreApart) {
+  const Vehicle vehicle = testing::known(testing::quad());
+  FlightLog log = testing::flight(testing::quad(), 250, 3, 20.0);
+  const auto deviation = [&] {
+    return refine_flight(vehicle, std::vector{log}, {.validate = false}).find("dead_time")->std;
+  };
+  EXPECT_LT(deviation(), 0.5e-3);
+  for (std::vector<double>& rate : log.w_B)
+    for (std::size_t i = rate.size() - 1; i > 0; --i) rate[i] = rate[i - 1];
+  EXPECT_NEAR(deviation(), 4e-3, 0.6e-3);
+}
+
 }  // namespace
 }  // namespace ident
