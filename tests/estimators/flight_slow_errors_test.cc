@@ -143,6 +143,25 @@ TEST(SlowErrors, IsEstimatedWithTheFlight) {
                 0.2 * noise_level("typical").attitude);
 }
 
+// An error held at the most that the log allows has come to rest: rounds that go on are many times the fit.
+TEST(SlowErrors, HeldAtTheMostThatTheLogShowsIsKnown) {
+  const Vehicle vehicle = testing::published_vehicle();
+  FlightLog log = flown(vehicle, 3).log;
+  testing::drift_attitude(log, kError, 3);
+  FlightRecord record = record_of(vehicle, log);
+  ASSERT_TRUE(drifts(record));
+  for (ColouredNoise& axis : record.slow[kShownAttitude]) axis.sigma *= 0.03;
+  const Theta theta(parameter_vector(vehicle), {}, 1, true);
+  const FlightFit fit = fit_flight(record, theta);
+  fit.smoother->linearize(fit.u, true);
+  fit.smoother->accept();
+  const std::array<ColouredNoise, 3> before = fit.noise.slow[kShownAttitude];
+  const double change = fit.smoother->retune(1);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(fit.smoother->noise().slow[kShownAttitude][i].sigma / before[i].sigma, 1.0, 0.1);
+  EXPECT_LT(change, 0.1);
+}
+
 TEST(SlowErrors, IsNoGapAndHidesNone) {
   const Vehicle model = testing::published_vehicle();
   Vehicle truth = model;

@@ -179,9 +179,11 @@ double FlightSmoother::update_noise(const LinkMoments& moments, NoisePaces& pace
   for (std::size_t g = 0; g < kShownGroups; ++g)
     for (std::size_t i = 0; i < 3 && record_->layout.shown_error[g] >= 0; ++i) {
       ColouredNoise& error = noise_.slow[g][i];
-      change = std::max(change, moments.shown[g][i].update(error, paces.shown[g][i], kSlowestShown));
       const ColouredNoise& seen = record_->slow[g][i];
+      const double before = error.sigma;
+      const double wanted = moments.shown[g][i].update(error, paces.shown[g][i], kSlowestShown);
       error.sigma = std::min(error.sigma, seen.sigma * std::sqrt(kMostDense * error.tau / seen.tau));
+      change = std::max(change, std::min(wanted, std::abs(error.sigma / before - 1)));
     }
   return std::max(change, moments.motors.update(noise_.q_motor));
 }
