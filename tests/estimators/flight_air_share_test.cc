@@ -57,6 +57,7 @@ TEST(AirShare, QuickGustsLeaveOpenWhatTurnsAboutTheirAxes) {
   EXPECT_EQ(not_known_in({{0.8, 0.2, 0.2}, {0.3, 0.3, 0.3}}), "kT omega_m Jxx ");
   EXPECT_EQ(not_known_in({{0.2, 0.2, 0.8}, {0.3, 0.3, 0.3}}), "kQ Jzz Jp ");
   EXPECT_EQ(not_known_in({{0.8, 0.8, 0.2}, {0.3, 1.5, 0.3}}), "kT omega_m Jxx Jyy ") << "one speaks for all";
+  EXPECT_EQ(not_known_in({{0.55, 0.45, 0.2}, {0.3, 0.3, 0.3}}), "kT omega_m Jxx Jyy ") << "nearly as strong";
   EXPECT_EQ(not_known_in({{0.8, 0.8, 0.2}, {1.5, 1.5, 0.3}}), "nothing") << "but not one that is weak";
   EXPECT_EQ(not_known_in({{0.6, 0.6, 0.2}, {0.7, 0.7, 0.7}}), "nothing") << "stronger ones only";
   EXPECT_EQ(not_known_in({{0.8, 0.2, 0.2}, {0.7, 0.7, 0.7}}), "kT omega_m Jxx ");

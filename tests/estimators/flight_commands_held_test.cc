@@ -68,6 +68,23 @@ TEST(HeldCommands, AreRefutedByMoreThanChance) {
   EXPECT_FALSE((HeldCommands{.better = 8e5, .expected = 1e6}).refuted());  // of steps that were not the last
 }
 
+// An offset of the command is told by how thrust goes with it, and what was flown in between is not known.
+TEST(HeldCommands, RefutedLeaveOpenAnOffsetThatTheyAskedFor) {
+  const Vehicle vehicle = testing::known(testing::quad());
+  const std::vector<FlightLog> logs{flown(250)};
+  const FlightRecord record = make_flight_record(vehicle, parameter_vector(vehicle), logs);
+  for (const bool offset : {false, true}) {
+    Result result;
+    for (const char* name : {"km", "kT", "omega_m", "Jxx"})
+      result.parameters.push_back({.name = name, .value = 1.0, .std = 0.01});
+    if (offset) result.warn("command_offset", "");
+    doubt_commands_between_rows(result, record, logs, {.better = -100.0, .expected = 100.0});
+    std::string open;
+    for (const Parameter& p : result.parameters) open += p.identifiable ? "" : p.name + " ";
+    EXPECT_EQ(open, offset ? "km kT omega_m " : "omega_m ");
+  }
+}
+
 TEST(HeldCommands, AlongLinesGoOnToTheNextInSteps) {
   FlightLog log;
   log.t = {0.0, 0.01, 0.02, 0.03, 0.5};

@@ -74,6 +74,17 @@ TEST(FlightImpossible, WhatIsKnownOnlyTogetherWithOneThatIsDrawnAwayIsNotKnown) 
   }
 }
 
+TEST(FlightImpossible, WhatRotorsDoAboutYawGoesWithAnInertiaThatIsDrawnAway) {
+  for (const double drawn : {1e-6, 9e-6}) {  // stated 1e-5 within 1e-6
+    Result result;
+    result.parameters = {told("Jp", drawn, 1e-5), told("kQ", 1e-7, 1e-7), told("Jzz", 4e-3, 4e-3),
+                         told("Jxx", 3e-3, 3e-3)};
+    result.parameters[0].identifiable = false;
+    doubt_drawn_away(result);
+    EXPECT_EQ(not_known(result), drawn < 5e-6 ? "Jp kQ Jzz " : "Jp ");
+  }
+}
+
 TEST(FlightImpossible, WhatTheSelfTestFoundLeavesOpenWhatDependsOnIt) {
   const auto after = [](const char* warning, void (*doubt)(Result&)) {
     Result result = with_motors(25, 1.0, 0.004);

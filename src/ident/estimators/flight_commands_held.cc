@@ -122,6 +122,7 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
   const bool inertia = input_interval(record, logs) > kSeldom;
   if (inertia) doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
+  if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
   result.warn("commands_between_rows",
               fmt::format("the vehicle does not fly as commands that hold from row to row would make it: the "
                           "controller goes on in between, or times of rows are not those of the commands; "

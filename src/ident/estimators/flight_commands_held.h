@@ -25,7 +25,8 @@ HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog
                            const FlightFit& fit);
 
 /// Where commands did not hold, what follows them does not count as known, and a warning
-/// `commands_between_rows` says so; where they come at less than 110 Hz, neither do moments of inertia.
+/// `commands_between_rows` says so; where they come at less than 110 Hz, neither do moments of inertia, nor
+/// does an offset of the command that such logs ask for, with what goes with it.
 void doubt_commands_between_rows(Result& result, const FlightRecord& record, std::span<const FlightLog> logs,
                                  const HeldCommands& held);
 

@@ -98,6 +98,8 @@ void doubt_drawn_away(Result& result) {
     for (const std::string& other : drawn)
       if (p.name != other && std::abs(result.correlation.of(p.name, other)) > kTogether)
         p.doubt("known only together with " + other + ", which flight draws far from what was stated");
+  if (std::ranges::find(drawn, "Jp") != drawn.end())  // what rotors do about yaw is done by these
+    doubt_all(result, {"kQ", "Jzz"}, "goes with Jp, which flight draws far from what was stated");
 }
 
 }  // namespace ident

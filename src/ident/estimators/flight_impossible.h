@@ -39,7 +39,8 @@ void doubt_coarse_commands(Result& result);
 void doubt_seldom_speeds(Result& result);
 
 /// A constant that flight does not tell, and yet draws far from what was stated of it, makes up for
-/// something: those that are known only together with it do not count as known either.
+/// something: those that are known only together with it do not count as known either; with Jp, neither do kQ
+/// and Jzz.
 void doubt_drawn_away(Result& result);
 
 }  // namespace ident
