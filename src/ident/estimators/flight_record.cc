@@ -8,6 +8,7 @@
 #include "ident/core/error.h"
 #include "ident/estimators/flight_command_history.h"
 #include "ident/estimators/flight_pieces.h"
+#include "ident/estimators/flight_quiet_voltage.h"
 #include "ident/estimators/flight_record_start.h"
 #include "ident/estimators/flight_slow_errors.h"
 #include "ident/estimators/flight_speed_modes.h"
@@ -55,8 +56,8 @@ StateLayout layout_of(const Signals& s, int rotors) {
   return layout;
 }
 
-FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::size_t end,
-                   const Vehicle& vehicle, double v0, const Eigen::MatrixXd& modes) {
+FlightArc make_arc(const FlightLog& log, const std::vector<double>& voltage, int number, std::size_t begin,
+                   std::size_t end, const Vehicle& vehicle, double v0, const Eigen::MatrixXd& modes) {
   FlightArc arc;
   arc.log = number;
   const auto cut = [&](const std::vector<double>& c) {
@@ -99,8 +100,8 @@ FlightArc make_arc(const FlightLog& log, int number, std::size_t begin, std::siz
     smoothed = smoothed_speeds(arc.t, speeds, modes);
     inputs.Omega = std::move(smoothed.likely);
   }
-  if (!log.vbat.empty()) {
-    inputs.voltage_ratio = interpolated(arc.t, cut(log.vbat));
+  if (!voltage.empty()) {
+    inputs.voltage_ratio = interpolated(arc.t, cut(voltage));
     for (double& v : inputs.voltage_ratio) v = std::max(v / v0, 0.05);
   }
   if (!log.has_commands()) {
@@ -154,8 +155,10 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     const FlightLog& log = logs[n];
     if (log.rows() < 2) throw DataError(log.file + ": fewer than two rows");
     const double history = log.has_commands() ? kHistory + p[param::dead_time] : 0.0;
+    const std::vector<double> voltage = quiet_voltage(log);
     for (const auto& [begin, end] : whole_pieces(log, history, options.longest_gap, record.warnings))
-      if (FlightArc arc = make_arc(log, static_cast<int>(n), begin, end, vehicle, v0, modes); is_driven(arc))
+      if (FlightArc arc = make_arc(log, voltage, static_cast<int>(n), begin, end, vehicle, v0, modes);
+          is_driven(arc))
         record.arcs.push_back(std::move(arc));
   }
   std::vector<double> intervals;

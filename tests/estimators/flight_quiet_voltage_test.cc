@@ -1,0 +1,121 @@
+// A battery's voltage as its sensor shows it and as it was.
+#include "ident/estimators/flight_quiet_voltage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ident/core/random.h"
+#include "ident/estimators/flight_record_start.h"
+#include "ident/estimators/flight_refine.h"
+#include "support/known_quad.h"
+
+namespace ident {
+namespace {
+
+constexpr double kFull = 4.2, kNoise = 0.02;  // V
+
+Vehicle with_battery(double n) {
+  Vehicle vehicle = testing::quad();
+  vehicle.battery_voltage = kFull;
+  vehicle.parameters["battery_sag.n"].value = n;
+  return vehicle;
+}
+
+// Its battery hardly empties: what the voltage changes by is what the load takes.
+FlightLog flown(std::uint64_t seed, int every = 25) {
+  SimulationOptions options;
+  options.duration = 40, options.seed = seed, options.battery_used = 0.02;
+  options.noise.voltage = 0;
+  options.signals.rotor_speeds = 0, options.signals.battery = every;  // 10 Hz
+  return simulate_flight(with_battery(1.0), options).log;
+}
+
+FlightLog with_noise(FlightLog log, std::uint64_t seed, double noise = kNoise) {
+  Random random(seed);
+  for (double& v : log.vbat)
+    if (std::isfinite(v)) v += noise * random.normal();
+  return log;
+}
+
+double rms_between(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::isfinite(a[i]) && std::isfinite(b[i])) sum += std::pow(a[i] - b[i], 2), count += 1;
+  return std::sqrt(sum / count);
+}
+
+TEST(QuietVoltage, IsNearerToTheTruth) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const FlightLog truth = flown(seed), log = with_noise(truth, seed);
+    EXPECT_NEAR(rms_between(log.vbat, truth.vbat), kNoise, 0.15 * kNoise);
+    EXPECT_LT(rms_between(quiet_voltage(log), truth.vbat), 0.4 * kNoise) << seed;
+  }
+}
+
+TEST(QuietVoltage, WithoutNoiseIsAsLogged) {
+  const FlightLog log = flown(1, 1);
+  const std::vector<double> quiet = quiet_voltage(log);
+  for (std::size_t i = 0; i < quiet.size(); ++i) {
+    ASSERT_EQ(std::isnan(quiet[i]), std::isnan(log.vbat[i]));
+    if (std::isfinite(quiet[i])) {
+      ASSERT_EQ(quiet[i], log.vbat[i]);
+    }
+  }
+  FlightLog constant = log;
+  for (double& v : constant.vbat) v = 11.1;
+  EXPECT_LT(rms_between(quiet_voltage(constant), constant.vbat), 1e-12);
+}
+
+TEST(QuietVoltage, NeedsSamplesAndCommands) {
+  FlightLog log = with_noise(flown(1), 1);
+  FlightLog without = log;
+  without.delta.clear();
+  EXPECT_EQ(quiet_voltage(without).size(), log.rows());
+  EXPECT_LT(rms_between(quiet_voltage(without), log.vbat), 1e-12);
+  std::size_t kept = 0;
+  for (double& v : log.vbat)
+    if (std::isfinite(v) && ++kept > 40) v = kNaN;
+  EXPECT_LT(rms_between(quiet_voltage(log), log.vbat), 1e-12);
+  log.vbat.clear();
+  EXPECT_TRUE(quiet_voltage(log).empty());
+}
+
+// Between samples it goes with the load.
+TEST(QuietVoltage, IsNearerThanLinesBetweenSamples) {
+  for (const double noise : {0.0, 0.002, kNoise}) {
+    const FlightLog truth = flown(3, 1);
+    FlightLog log = with_noise(truth, 3, noise);
+    for (std::size_t i = 0; i < log.rows(); ++i)
+      if (i % 25 != 0) log.vbat[i] = kNaN;
+    EXPECT_LT(rms_between(interpolated(log.t, quiet_voltage(log)), truth.vbat),
+              0.9 * rms_between(interpolated(log.t, log.vbat), truth.vbat))
+        << noise;
+  }
+}
+
+// What a sensor shows before it is ready.
+TEST(QuietVoltage, LeavesOutWhatIsNoVoltage) {
+  const FlightLog truth = flown(2);
+  FlightLog log = with_noise(truth, 2);
+  for (std::size_t i = 0; i < log.rows() / 20; ++i)
+    if (std::isfinite(log.vbat[i])) log.vbat[i] = 0.0;
+  const std::vector<double> quiet = quiet_voltage(log);
+  for (const double v : quiet) EXPECT_NEAR(v, kFull, 0.5);
+}
+
+// Its noise would pass for sag that the motors do not feel: half of it was found then.
+TEST(QuietVoltage, TellsHowSpeedsGoWithIt) {
+  Vehicle vehicle = testing::known(with_battery(0.8));
+  vehicle.parameters["battery_sag.n"].std = 0.4;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Result result =
+        refine_flight(vehicle, std::vector{with_noise(flown(seed), seed)}, {.validate = false});
+    const Parameter& n = *result.find("battery_sag.n");
+    EXPECT_NEAR(n.value, 1.0, 0.1) << n.std;
+    EXPECT_TRUE(n.identifiable);
+  }
+}
+
+}  // namespace
+}  // namespace ident
