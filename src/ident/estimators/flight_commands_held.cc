@@ -4,7 +4,8 @@
 // neither.
 //
 // Of flights with controllers at 400 to 2000 Hz and logs at 50 to 500 Hz the difference was -1.6 to 0.2 or 3
-// to 20 of d'd; where the log had all commands, 0.9 to 1.1.
+// to 20 of d'd; where the log had all commands, 0.9 to 1.1, and in strong gusts, which a controller answers
+// by the next command, up to 3, where d'd is small.
 #include "ident/estimators/flight_commands_held.h"
 
 #include <fmt/format.h>
@@ -21,10 +22,11 @@
 namespace ident {
 namespace {
 
-constexpr double kBeyondChance = 3.0;  // standard deviations
-constexpr double kGoodPart = 0.3;      // of what is expected
+// Less than expected, and more: standard deviations, and of what is expected.
+constexpr double kBeyondChance = 3.0, kGoodPart = 0.3;
+constexpr double kFarBeyondChance = 4.0, kMuchMore = 1.5;
 constexpr double kMatters = 0.02;      // of the motors' lag
-constexpr double kSmooth = 0.22;       // roughness() of commands whose steps do not show
+constexpr double kSmooth = 0.18;       // roughness() of commands whose steps do not show
 constexpr double kSeldom = 1.0 / 110;  // s, where moments of inertia came out 3 to 10 % off
 constexpr double kHistory = 1.0;       // s of commands before an arc
 constexpr int kSteps = 4, kMostSteps = 10;
@@ -97,8 +99,9 @@ double square_between(const FlightSmoother::Along& a, const FlightSmoother::Alon
 }  // namespace
 
 bool HeldCommands::refuted() const {
-  const double off = std::abs(better - expected);
-  return off > kGoodPart * expected && off > 2 * kBeyondChance * std::sqrt(expected);
+  const double less = expected - better, chance = 2 * std::sqrt(expected);
+  return less > std::max(kGoodPart * expected, kBeyondChance * chance) ||
+         -less > std::max(kMuchMore * expected, kFarBeyondChance * chance);
 }
 
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,

@@ -28,10 +28,10 @@ Eigen::VectorXd moved_by_rougher_speeds(const FlightRecord& record, const Theta&
   return du.allFinite() ? du : Eigen::VectorXd::Zero(du.size());
 }
 
-Eigen::VectorXd moved_by_time(const FlightRecord& record, const Theta& theta, const FlightFit& fit) {
+Eigen::VectorXd moved_by_time(double seconds, const Theta& theta, const FlightFit& fit) {
   Eigen::VectorXd du = Eigen::VectorXd::Zero(fit.u.size());
   for (int i = 0; i < theta.constants_count(); ++i)
-    if (theta.name(i) == "dead_time") du[i] = record.turns_apart / theta.slope(fit.u, i);
+    if (theta.name(i) == "dead_time") du[i] = seconds / theta.slope(fit.u, i);
   return du;
 }
 

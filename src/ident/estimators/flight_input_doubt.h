@@ -12,8 +12,8 @@ bool has_noisy_input(const FlightRecord& record);
 /// input. The fit's covariance knows nothing of it.
 Eigen::VectorXd moved_by_rougher_speeds(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
 
-/// The same where rates and attitude are not in time with each other: commands are with one of them, it is
-/// not known which, and a free dead time is off by as much.
-Eigen::VectorXd moved_by_time(const FlightRecord& record, const Theta& theta, const FlightFit& fit);
+/// The same where it is not known within so many seconds when commands come: a free dead time is off by as
+/// much.
+Eigen::VectorXd moved_by_time(double seconds, const Theta& theta, const FlightFit& fit);
 
 }  // namespace ident

@@ -273,7 +273,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   for (const VectorXd& moved :
-       {moved_by_rougher_speeds(record, theta, fit), moved_by_time(record, theta, fit)})
+       {moved_by_rougher_speeds(record, theta, fit), moved_by_time(record.turns_apart, theta, fit)})
     fit.covariance += moved * moved.transpose();
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);

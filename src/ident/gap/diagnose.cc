@@ -12,6 +12,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/core/nearest_word.h"
+#include "ident/estimators/flight_commands_held.h"
 #include "ident/estimators/flight_entry.h"
 #include "ident/estimators/flight_hover.h"
 #include "ident/estimators/flight_impossible.h"
@@ -32,6 +33,7 @@
 #include "ident/gap/held_out_gap.h"
 #include "ident/gap/input_smoothing.h"
 #include "ident/gap/model_search.h"
+#include "ident/gap/open_commands.h"
 #include "ident/gap/out_of_balance.h"
 #include "ident/gap/residual_wrench.h"
 #include "ident/gap/search_details.h"
@@ -78,8 +80,14 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
 }
 
 // How a flight is looked at: first; closer, with gusts in steps as short as a refinement has them; or as at
-// first where that told nothing.
+// first where that told nothing. By commands that held from row to row, or that did not.
 enum class Look { first, closer, last };
+enum class Commands { held, open };
+
+// A diagnosis, and where it ends with `unknown`, whether commands held.
+struct Looked : Diagnosis {
+  HeldCommands commands;
+};
 
 // Where the battery matters, it matters at which voltage km holds.
 void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehicle,
@@ -147,10 +155,11 @@ Judged doubted_for_input(Judged verdict, const FlightRecord& record, const Searc
 
 // A diagnosis of a flight that was entered, with what `begun` says of it. None where a first look would be
 // doubtful and a closer one may tell more, and where a closer one ends with a model that cannot be flown.
-std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
-                                   const GapOptions& options, FlightEntry entry, Result begun, Look look) {
+std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                                const GapOptions& options, FlightEntry entry, Result begun, Look look,
+                                Commands commands) {
   auto [p, record, tested, vibration] = std::move(entry);
-  Diagnosis out{std::move(begun), {}};
+  Looked out{{std::move(begun), {}}, {}};
   Result& result = out.result;
   const bool hover = is_hover(tested);
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
@@ -160,6 +169,11 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   const Eigen::VectorXd moved = moved_by_rougher_speeds(record, *search.best.theta, search.best.fit);
   const std::vector<std::string> loose = depend_on_smoothing(search.best, moved);
   search.best.fit.covariance += moved * moved.transpose();
+  if (commands == Commands::open) {
+    const Eigen::VectorXd late =
+        moved_by_time(input_interval(record, logs) / 2, *search.best.theta, search.best.fit);
+    search.best.fit.covariance += late * late.transpose();
+  }
   // What a cause explains, logs need not agree on without it: a battery at another charge.
   if (!logs_agree(record, logs, *search.base.theta, search.base.fit).empty())
     for (const Warning& w : logs_agree(record, logs, *search.best.theta, search.best.fit))
@@ -187,6 +201,10 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
     verdict = with_jitter(std::move(verdict));
   }
   if (hidden) verdict = with_seldom_commands(std::move(verdict), *hidden);
+  if (commands == Commands::open)
+    verdict = with_open_commands(std::move(verdict), input_interval(record, logs));
+  else if (doubtful)
+    out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   warn_of_battery(result, verdict, vehicle, logs);
 
@@ -213,6 +231,18 @@ std::optional<Diagnosis> diagnosed(const Vehicle& vehicle, std::span<const Fligh
   return out;
 }
 
+Looked looked_at(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options,
+                 const FlightEntry& entry, const Result& begun, Commands commands) {
+  if (std::optional<Looked> seen = diagnosed(vehicle, logs, options, entry, begun, Look::first, commands))
+    return *std::move(seen);
+  try {
+    if (std::optional<Looked> seen = diagnosed(vehicle, logs, options, entry, begun, Look::closer, commands))
+      return *std::move(seen);
+  } catch (const DataError&) {  // no model that stands: the first look had one
+  }
+  return std::move(*diagnosed(vehicle, logs, options, entry, begun, Look::last, commands));
+}
+
 }  // namespace
 
 Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
@@ -234,18 +264,17 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
     return out;
   }
   require_turning(record.signals);
-  if (std::optional<Diagnosis> seen =
-          diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, Look::first))
-    return std::move(*seen);
+  const FlightEntry entry{std::move(p), std::move(record), std::move(tested), std::move(vibration)};
+  Looked seen = looked_at(vehicle, logs, options, entry, result, Commands::held);
+  if (!seen.commands.refuted()) return seen;
   try {
-    if (std::optional<Diagnosis> seen =
-            diagnosed(vehicle, logs, options, {p, record, tested, vibration}, result, Look::closer))
-      return std::move(*seen);
-  } catch (const DataError&) {  // no model that stands: the first look had one
+    Looked open = looked_at(with_open_motors(vehicle, input_interval(entry.record, logs)), logs, options,
+                            entry, result, Commands::open);
+    doubt_commands_between_rows(open.result, entry.record, logs, seen.commands);
+    return open;
+  } catch (const DataError&) {  // no model that stands
+    return seen;
   }
-  return std::move(*diagnosed(vehicle, logs, options,
-                              {std::move(p), std::move(record), std::move(tested), std::move(vibration)},
-                              std::move(result), Look::last));
 }
 
 }  // namespace ident
