@@ -159,7 +159,7 @@ TEST(SlowErrors, HeldAtTheMostThatTheLogShowsIsKnown) {
   const double change = fit.smoother->retune(1);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(fit.smoother->noise().slow[kShownAttitude][i].sigma / before[i].sigma, 1.0, 0.1);
-  EXPECT_LT(change, 0.1);
+  EXPECT_LT(change, 0.03);
 }
 
 TEST(SlowErrors, IsNoGapAndHidesNone) {

@@ -29,10 +29,14 @@ Vehicle stated() {
 
 TEST(OpenCommands, AreNoGapOfTheVehicle) {
   const std::vector<FlightLog> logs{flown(testing::quad(0.0), 1)};
-  const Result result = diagnose_gap(stated(), logs).result;
+  const auto [result, adopted] = diagnose_gap(stated(), logs);
   EXPECT_EQ(result.extra["verdict"]["status"], "none") << result.verdict;
+  EXPECT_FALSE(adopted.has("dead_time"));
+  EXPECT_EQ(adopted.value("omega_m"), stated().value("omega_m"));
   EXPECT_TRUE(result.has_warning("commands_between_rows"));
-  EXPECT_FALSE(result.find("omega_m")->identifiable);
+  const Parameter& omega_m = *result.find("omega_m");
+  EXPECT_FALSE(omega_m.identifiable);
+  EXPECT_DOUBLE_EQ(*omega_m.prior_std, *stated().parameters.at("omega_m").std);  // and not what was left open
   EXPECT_FALSE(result.has_warning("negative_dead_time"));  // by half the time between commands, or less
 }
 
@@ -57,6 +61,11 @@ TEST(OpenCommands, LeaveMotorsOpen) {
   vehicle.parameters["omega_m"].std = 0.5 * vehicle.value("omega_m");  // known no better
   EXPECT_DOUBLE_EQ(*with_open_motors(vehicle, 0.01).parameters.at("omega_m").std,
                    0.5 * vehicle.value("omega_m"));
+  vehicle.parameters["zeta_m"].std.reset(), vehicle.parameters["kQ"].std = 0.0;
+  vehicle.parameters["dead_time"].std = 0.0;
+  EXPECT_FALSE(with_open_motors(vehicle, 0.01).parameters.at("zeta_m").std.has_value());  // free already
+  EXPECT_EQ(*with_open_motors(vehicle, 0.01).parameters.at("kQ").std, 0.0);               // held
+  EXPECT_EQ(*with_open_motors(vehicle, 0.01).parameters.at("dead_time").std, 0.0);
   vehicle.parameters.erase("Jp");
   EXPECT_FALSE(with_open_motors(vehicle, 0.01).has("Jp"));  // what nobody states is held as it is
 }
@@ -67,12 +76,13 @@ TEST(OpenCommands, PassForMotorsOfWhichNothingIsNamed) {
                               0.01);
   };
   EXPECT_EQ(judged({"rotor_drag"}).status, "identified");
-  EXPECT_NE(judged({"rotor_drag"}).sentence.find("motors count as hardly known"), std::string::npos);
+  EXPECT_NE(judged({"rotor_drag"}).sentence.find("were left open"), std::string::npos);
   for (const char* cause : {"motor_asymmetry", "motor_delay", "parameter:omega_m", "parameter:Jp"}) {
     const Judged verdict = judged({"rotor_drag", cause});
     EXPECT_EQ(verdict.status, "unknown") << cause;
     EXPECT_EQ(verdict.confused_with, (std::vector<std::string>{"rotor_drag", cause}));
     EXPECT_NE(verdict.sentence.find("100 a second"), std::string::npos) << verdict.sentence;
+    EXPECT_EQ(verdict.sentence.find("rotor_drag"), std::string::npos) << verdict.sentence;
   }
 }
 

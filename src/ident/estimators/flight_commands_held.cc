@@ -25,6 +25,8 @@ namespace {
 // Less than expected, and more: standard deviations, and of what is expected.
 constexpr double kBeyondChance = 3.0, kGoodPart = 0.3;
 constexpr double kFarBeyondChance = 4.0, kMuchMore = 1.5;
+// What confirms them: as much expected, and so near to that.
+constexpr double kTold = 400.0, kNearIt = 0.1;
 constexpr double kMatters = 0.02;      // of the motors' lag
 constexpr double kSmooth = 0.18;       // roughness() of commands whose steps do not show
 constexpr double kSeldom = 1.0 / 110;  // s, where moments of inertia came out 3 to 10 % off
@@ -104,33 +106,43 @@ bool HeldCommands::refuted() const {
          -less > std::max(kMuchMore * expected, kFarBeyondChance * chance);
 }
 
+bool HeldCommands::confirmed() const {
+  return expected > kTold && std::abs(better - expected) < kNearIt * expected;
+}
+
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit) {
-  if (!record.signals.commands || are_smooth(logs) || !half_a_row_matters(record, logs, theta, fit))
-    return {};
+  if (!record.signals.commands || !half_a_row_matters(record, logs, theta, fit)) return {};
+  HeldCommands out{.rare = std::ranges::any_of(logs, commands_are_rarer_than_rates)};
+  if (!out.rare && are_smooth(logs)) return out;
   const Theta own = with_free_dead_time(record, theta, fit);
   try {
     const Explained held = explained(record, own, fit),
                     lines = explained(along_lines(record, logs), own, fit);
-    return {lines.cost - held.cost, square_between(held.at, lines.at)};
+    out.better = lines.cost - held.cost, out.expected = square_between(held.at, lines.at);
   } catch (const DataError&) {  // nothing flies so
-    return {};
   }
+  return out;
 }
 
 void doubt_commands_between_rows(Result& result, const FlightRecord& record, std::span<const FlightLog> logs,
                                  const HeldCommands& held) {
-  if (!held.refuted()) return;
-  constexpr const char* kWhy = "commands went on between those that were logged";
+  if (!held.doubtful()) return;
+  const char* const kWhy = held.refuted() ? "commands went on between those that were logged"
+                                          : "commands may have gone on between those that were logged";
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
   const bool inertia = input_interval(record, logs) > kSeldom;
   if (inertia) doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
-  result.warn("commands_between_rows",
-              fmt::format("the vehicle does not fly as commands that hold from row to row would make it: the "
-                          "controller goes on in between, or times of rows are not those of the commands; "
-                          "nothing is known of the motors{}; log each command that is sent",
-                          inertia ? " and of moments of inertia" : ""));
+  result.warn(
+      "commands_between_rows",
+      fmt::format("{}; nothing is known of the motors{}; log each command that is sent",
+                  held.refuted()
+                      ? "the vehicle does not fly as commands that hold from row to row would make it: "
+                        "the controller goes on in between, or times of rows are not those of the commands"
+                      : "commands were logged more seldom than the rates that a controller answers to, "
+                        "and the flight does not show that they held in between",
+                  inertia ? " and of moments of inertia" : ""));
 }
 
 }  // namespace ident

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "ident/estimators/flight_command_history.h"
 #include "ident/estimators/flight_record_start.h"
@@ -92,11 +93,12 @@ std::vector<double> smoothed(const Samples& s, double R, double per_second) {
 
 // Commands so much later, s, as by motors that are critically damped.
 Track later(const std::vector<double>& t, Track x, double lag) {
-  double between = x.front();
-  for (std::size_t i = 1; i < x.size() && lag > 0; ++i) {
+  if (lag <= 0) return x;
+  double between = x.front(), held = x.front();  // from the row before
+  for (std::size_t i = 1; i < x.size(); ++i) {
     const double share = -std::expm1(-(t[i] - t[i - 1]) / (lag / 2));
-    between += share * (x[i] - between);
-    x[i] = x[i - 1] + share * (between - x[i - 1]);
+    between += share * (held - between);
+    held = std::exchange(x[i], x[i - 1] + share * (between - x[i - 1]));
   }
   return x;
 }
@@ -129,28 +131,50 @@ Samples at_rows(const FlightLog& log, const std::vector<double>& load, std::span
   return s;
 }
 
+// Rows without those where the voltage is elsewhere for a sample or two: what is there is no noise.
+std::vector<std::size_t> without_glitches(const FlightLog& log, const std::vector<std::size_t>& rows) {
+  constexpr std::size_t kBeside = 2;
+  constexpr double kFar = 8.0, kLeast = 0.02;  // deviations; share of the voltage
+  std::vector<double> off(rows.size()), size;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<double> about;
+    const std::size_t from = k < kBeside ? 0 : k - kBeside, to = std::min(k + kBeside + 1, rows.size());
+    for (std::size_t i = from; i < to; ++i) about.push_back(log.vbat[rows[i]]);
+    off[k] = std::abs(log.vbat[rows[k]] / median(about) - 1);
+  }
+  const double most = std::max(kFar * 1.48 * median(off), kLeast);
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (off[k] < most) out.push_back(rows[k]);
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> quiet_voltage(const FlightLog& log) {
   if (log.vbat.empty() || !log.has_commands()) return log.vbat;
   auto [rows, apart] = new_samples(log.t, std::span(&log.vbat, 1));
   std::erase_if(rows, [&](std::size_t row) { return !(log.vbat[row] > 0); });
+  rows = without_glitches(log, rows);
   if (rows.size() < kFewest || !(apart > 0)) return log.vbat;
   const std::size_t stride = 1 + rows.size() / kEnough;
   const std::vector<Track> commands = commands_at_rows(log);
-  double least = INFINITY, lag = 0, walk = kFastest;
+  double least = INFINITY, lag = 0, walk = kFastest, R = 0;
   for (const double tried : kLags) {
     const Samples some = at_rows(log, load_of(log, commands, tried), rows, stride);
-    for (double fast = kSlowest; fast <= kFastest; fast *= kStep)
-      if (const double surprise = Innovations(some, fast / apart).surprise(); surprise < least)
-        least = surprise, lag = tried, walk = fast;
+    for (double fast = kSlowest; fast <= kFastest; fast *= kStep) {
+      const Innovations seen(some, fast / apart);
+      if (const double surprise = seen.surprise(); surprise < least)
+        least = surprise, lag = tried, walk = fast, R = seen.resistance();
+    }
   }
-  if (walk > kFast) return log.vbat;
-  const std::vector<double> load = load_of(log, commands, lag);
+  const bool quiet = walk > kFast, often = 2 * rows.size() > log.rows();
+  if (quiet && (often || R == 0)) return log.vbat;
+  const Track load = load_of(log, commands, lag);
   const Samples all = at_rows(log, load, rows);
-  const double R = Innovations(all, walk / apart).resistance();
-  std::vector<double> out(log.rows(), kNaN);
-  const std::vector<double> level = smoothed(all, R, walk / apart);
+  Track level = quiet ? all.v : smoothed(all, R, walk / apart);
+  for (std::size_t k = 0; k < rows.size() && quiet; ++k) level[k] += R * all.load[k];
+  Track out(log.rows(), kNaN);
   for (std::size_t k = 0; k < rows.size(); ++k) out[rows[k]] = level[k];
   out = interpolated(log.t, out);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] -= R * load[i];

@@ -8,10 +8,10 @@
 namespace ident {
 
 /// The battery's voltage at every row of a log with commands, V: what changes slowly, and what the load
-/// takes, which goes with the cubes of the commands. Noise would pass for sag that the motors do not feel,
-/// and what a flight tells of battery_sag.n come out too small. As logged, NaN where it was not sampled,
-/// where its noise is no matter beside what it changes by from one sample to the next, or where there are too
-/// few.
+/// takes, which goes with the cubes of the commands and shows between samples too. Noise would pass for sag
+/// that the motors do not feel, and what a flight tells of battery_sag.n come out too small. As it was
+/// logged, with NaN where it was not sampled: without commands, of few samples, and where there is no noise
+/// and a sample at about every row, or no load to be seen.
 std::vector<double> quiet_voltage(const FlightLog& log);
 
 }  // namespace ident

@@ -201,7 +201,6 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, const
   warn_of_air(result, air);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   doubt_passed_on(result, vibration);
-  doubt_drawn_away(result);
   warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
   warn_of_inertia(result, theta, fit);
@@ -233,6 +232,7 @@ void show(Result& result, const Refined& refined, const SteadyPush& push, const 
 void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   warn_of_disagreement(result, "the model lacks an effect (try ident gap)");
   doubt_negative_dead_time(result);
+  doubt_drawn_away(result);
   std::string unknown;
   for (const Parameter& p : result.parameters)
     if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;

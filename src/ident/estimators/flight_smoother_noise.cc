@@ -183,7 +183,7 @@ double FlightSmoother::update_noise(const LinkMoments& moments, NoisePaces& pace
       const double before = error.sigma;
       const double wanted = moments.shown[g][i].update(error, paces.shown[g][i], kSlowestShown);
       error.sigma = std::min(error.sigma, seen.sigma * std::sqrt(kMostDense * error.tau / seen.tau));
-      change = std::max(change, std::min(wanted, std::abs(error.sigma / before - 1)));
+      if (wanted > 0) change = std::max(change, std::abs(error.sigma / before - 1));
     }
   return std::max(change, moments.motors.update(noise_.q_motor));
 }

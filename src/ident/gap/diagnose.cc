@@ -84,7 +84,7 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
 enum class Look { first, closer, last };
 enum class Commands { held, open };
 
-// A diagnosis, and where it ends with `unknown`, whether commands held.
+// A diagnosis, and where one by commands that hold might be another by those that do not, whether they held.
 struct Looked : Diagnosis {
   HeldCommands commands;
 };
@@ -203,7 +203,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   if (hidden) verdict = with_seldom_commands(std::move(verdict), *hidden);
   if (commands == Commands::open)
     verdict = with_open_commands(std::move(verdict), input_interval(record, logs));
-  else if (doubtful)
+  else if (doubtful || std::ranges::any_of(verdict.effects, passes_for_commands))
     out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   warn_of_battery(result, verdict, vehicle, logs);
@@ -266,13 +266,16 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   require_turning(record.signals);
   const FlightEntry entry{std::move(p), std::move(record), std::move(tested), std::move(vibration)};
   Looked seen = looked_at(vehicle, logs, options, entry, result, Commands::held);
-  if (!seen.commands.refuted()) return seen;
+  if (!seen.commands.doubtful()) return seen;
   try {
     Looked open = looked_at(with_open_motors(vehicle, input_interval(entry.record, logs)), logs, options,
                             entry, result, Commands::open);
     doubt_commands_between_rows(open.result, entry.record, logs, seen.commands);
+    doubt_open_motors(open.result, vehicle);
+    open.adopted = with_stated_motors(std::move(open.adopted), vehicle);
     return open;
   } catch (const DataError&) {  // no model that stands
+    doubt_commands_between_rows(seen.result, entry.record, logs, seen.commands);
     return seen;
   }
 }
