@@ -22,9 +22,9 @@
 namespace ident {
 namespace {
 
-// Less than expected, and more: standard deviations, and of what is expected.
+// Less than expected, or more: standard deviations, and of what is expected; of more than little.
 constexpr double kBeyondChance = 3.0, kGoodPart = 0.3;
-constexpr double kFarBeyondChance = 4.0, kMuchMore = 1.5;
+constexpr double kFarBeyondChance = 4.0, kMuchMore = 1.5, kLittle = 150.0;
 // What confirms them: as much expected, and so near to that.
 constexpr double kTold = 400.0, kNearIt = 0.1;
 constexpr double kMatters = 0.02;      // of the motors' lag
@@ -103,7 +103,7 @@ double square_between(const FlightSmoother::Along& a, const FlightSmoother::Alon
 bool HeldCommands::refuted() const {
   const double less = expected - better, chance = 2 * std::sqrt(expected);
   return less > std::max(kGoodPart * expected, kBeyondChance * chance) ||
-         -less > std::max(kMuchMore * expected, kFarBeyondChance * chance);
+         -less > std::max((expected < kLittle ? kMuchMore : kGoodPart) * expected, kFarBeyondChance * chance);
 }
 
 bool HeldCommands::confirmed() const {

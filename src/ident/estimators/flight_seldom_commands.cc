@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSeldom = 1.0 / 49.0;  ///< s
 constexpr double kEarly = 1.0 / 110.0;  ///< s, where rotors turn before their commands
-constexpr double kRarer = 1.5;          ///< samples of rates for one of commands
+constexpr double kRarer = 1.5;          ///< times the time between samples of rates
 constexpr double kHeld = 1.5;           ///< rows, or more, from change to change
 constexpr double kTogether = 0.7;       ///< of the rotors change where one does
 constexpr double kEven = 0.3;           ///< of the usual time from change to change: as far as others are
@@ -88,11 +88,8 @@ bool commands_are_seldom(const FlightLog& log) {
 }
 
 bool commands_are_rarer_than_rates(const FlightLog& log) {
-  const auto samples = [](const auto& columns) {
-    return columns.empty() ? 0 : std::ranges::count_if(columns[0], [](double x) { return std::isfinite(x); });
-  };
-  return log.has_commands() &&
-         static_cast<double>(samples(log.w_B)) > kRarer * static_cast<double>(samples(log.delta));
+  return log.has_commands() && log.has_rates() &&
+         new_samples(log.t, log.delta).apart > kRarer * new_samples(log.t, log.w_B).apart;
 }
 
 double input_interval(const FlightRecord& record, std::span<const FlightLog> logs) {

@@ -23,8 +23,8 @@ NewSamples new_samples(const std::vector<double>& t, std::span<const std::vector
 /// 49 Hz.
 bool commands_are_seldom(const FlightLog& log);
 
-/// Whether commands were sampled less often than rates: a controller that reads these went on in between, or
-/// was slower than a multirotor's are.
+/// Whether new commands come less often than new rates: a controller that reads these went on in between, or
+/// is slower than a multirotor's are.
 bool commands_are_rarer_than_rates(const FlightLog& log);
 
 /// Time between samples of what drives the motors, commands or measured speeds, s: of the log where it is
