@@ -84,7 +84,7 @@ bool gusts_may_be_all(const FlightRecord& record, const SearchResult& search, co
 enum class Look { first, closer, last };
 enum class Commands { held, open };
 
-// A diagnosis, and where one by commands that hold might be another by those that do not, whether they held.
+// A diagnosis, and where one that is `unknown` may be for its commands, whether these held.
 struct Looked : Diagnosis {
   HeldCommands commands;
 };
@@ -203,7 +203,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   if (hidden) verdict = with_seldom_commands(std::move(verdict), *hidden);
   if (commands == Commands::open)
     verdict = with_open_commands(std::move(verdict), input_interval(record, logs));
-  else if (doubtful || std::ranges::any_of(verdict.effects, passes_for_commands))
+  else if (doubtful)
     out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
   warn_of_battery(result, verdict, vehicle, logs);

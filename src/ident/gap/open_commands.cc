@@ -26,13 +26,13 @@ bool is_bent(const std::string& name) {
          std::ranges::any_of(kBent, [&](const Bent& bent) { return name == bent.name; });
 }
 
-}  // namespace
-
 bool passes_for_commands(const std::string& cause) {
   static constexpr std::array kCauses = {"motor_delay",      "motor_asymmetry",     "parameter:omega_m",
                                          "parameter:zeta_m", "parameter:dead_time", "parameter:Jp"};
   return std::ranges::find(kCauses, cause) != kCauses.end();
 }
+
+}  // namespace
 
 Vehicle with_open_motors(const Vehicle& vehicle, double interval) {
   Vehicle open = vehicle;

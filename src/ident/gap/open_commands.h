@@ -18,9 +18,6 @@ void doubt_open_motors(Result& result, const Vehicle& stated);
 /// What it found, but of motors, and of what acts about yaw, as was stated.
 Vehicle with_stated_motors(Vehicle found, const Vehicle& stated);
 
-/// Whether what a controller does between rows passes for that cause.
-bool passes_for_commands(const std::string& cause);
-
 /// A verdict by that vehicle: causes that what was not logged passes for are not named.
 Judged with_open_commands(Judged verdict, double interval);
 
