@@ -85,6 +85,15 @@ TEST(FlightImpossible, WhatRotorsDoAboutYawGoesWithAnInertiaThatIsDrawnAway) {
   }
 }
 
+TEST(FlightImpossible, WhatPredictsWorseThanWhatItIsFarFromIsNotKnown) {
+  Result result;
+  result.parameters = {told("Jxx", 2e-3, 3e-3), told("Jyy", 3.1e-3, 3e-3), told("km", 800, 900)};
+  result.parameters[0].pull = -6.0, result.parameters[1].pull = 4.0;
+  doubt_where_worse(result, "worse");
+  EXPECT_TRUE(result.has_warning("predicts_worse"));
+  EXPECT_EQ(not_known(result), "Jxx ");
+}
+
 TEST(FlightImpossible, WhatTheSelfTestFoundLeavesOpenWhatDependsOnIt) {
   const auto after = [](const char* warning, void (*doubt)(Result&)) {
     Result result = with_motors(25, 1.0, 0.004);

@@ -102,4 +102,12 @@ void doubt_drawn_away(Result& result) {
     doubt_all(result, {"kQ", "Jzz"}, "goes with Jp, which flight draws far from what was stated");
 }
 
+void doubt_where_worse(Result& result, const std::string& how) {
+  constexpr double kFar = 5.0;  // deviations
+  for (Parameter& p : result.parameters)
+    if (p.pull && std::abs(*p.pull) > kFar)
+      p.doubt("far from what was stated, and other flight is predicted worse for it");
+  result.warn("predicts_worse", how);
+}
+
 }  // namespace ident

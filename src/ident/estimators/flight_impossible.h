@@ -43,4 +43,8 @@ void doubt_seldom_speeds(Result& result);
 /// and Jzz.
 void doubt_drawn_away(Result& result);
 
+/// Where a fit predicts other flight worse than what was stated does, a warning `predicts_worse`: what it has
+/// five deviations from there is not known.
+void doubt_where_worse(Result& result, const std::string& how);
+
 }  // namespace ident

@@ -149,7 +149,7 @@ void validate(Result& result, const FlightRecord& record, const Theta& theta, Fl
   Validation validation = validate_refined(held_out, theta, before, view, shown);
   result.fit["held_out"] = validation.horizons;
   result.sections.push_back(std::move(validation.section));
-  if (!validation.worse.empty()) result.warn("predicts_worse", validation.worse);
+  if (!validation.worse.empty()) doubt_where_worse(result, validation.worse);
 }
 
 std::string verdict(const Result& result, double seconds) {
