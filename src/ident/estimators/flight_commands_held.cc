@@ -5,7 +5,7 @@
 //
 // Of flights with controllers at 400 to 2000 Hz and logs at 50 to 500 Hz the difference was -1.6 to 0.2 or 3
 // to 20 of d'd; where the log had all commands, 0.9 to 1.1, and in strong gusts, which a controller answers
-// by the next command, up to 3, where d'd is small.
+// by the next command, up to 3, where d'd is below 60.
 #include "ident/estimators/flight_commands_held.h"
 
 #include <fmt/format.h>
