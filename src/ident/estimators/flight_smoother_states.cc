@@ -1,5 +1,6 @@
 // States of the chain of chunks: taken over, turned, moved, their defects at the links and where arcs end.
 #include <algorithm>
+#include <cmath>
 
 #include "ident/estimators/flight_chunk_maps.h"
 #include "ident/estimators/flight_smoother.h"
@@ -8,6 +9,12 @@ namespace ident {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kSlow = 100.0;  // rad/s: even from rest a step may go so far
+
+}  // namespace
 
 void FlightSmoother::start_from(const FlightSmoother& other) {
   const std::vector<double> p = other.theta_->p(other.u_);
@@ -63,9 +70,17 @@ FlightState<double> FlightSmoother::moved(const FlightState<double>& x, const Ve
   if (layout.v_dot >= 0) y.outside.v_dot += dx.segment<3>(layout.v_dot);
   for (std::size_t g = 0; g < kShownGroups; ++g)
     if (layout.shown_error[g] >= 0) y.shown_error[g] += dx.segment<3>(layout.shown_error[g]);
-  for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
-    y.motors[static_cast<std::size_t>(n)].Omega += dx[layout.motors + n];
-    y.motors[static_cast<std::size_t>(n)].Omega_dot += dx[layout.motors + layout.rotors + n];
+  if (layout.motors < 0) return y;
+  double fastest = kSlow, wild = 0;
+  for (int n = 0; n < layout.rotors; ++n) {
+    fastest = std::max(fastest, std::abs(x.motors[static_cast<std::size_t>(n)].Omega));
+    wild = std::max(wild, std::abs(dx[layout.motors + n]));
+  }
+  // Another of a first iteration: thrust is no line over more than that.
+  const double share = wild > fastest ? fastest / wild : 1.0;
+  for (int n = 0; n < layout.rotors; ++n) {
+    y.motors[static_cast<std::size_t>(n)].Omega += share * dx[layout.motors + n];
+    y.motors[static_cast<std::size_t>(n)].Omega_dot += share * dx[layout.motors + layout.rotors + n];
   }
   return y;
 }
