@@ -39,28 +39,31 @@ double over_published(const Result& result, double u) {
   return value_of(result, "kT") * Omega * Omega / (0.02127 - 0.01118 * u + 0.12013 * u * u);
 }
 
-// What is known beforehand is vague: a factor of 1.3 off and said to be so. Published: Eschmann, Albani,
-// Loianno, Data-Driven System Identification of Quadrotors Subject to Motor Delays.
-TEST(RealRefinement, ThreeLogsGiveABrushedCrazyflieAsPublished) {
+// What is known beforehand is vague: a factor of 1.3 off and said to be so. The moments are those of such a
+// vehicle as simulators have them, 1.395e-5 and 1.436e-5. Published with the flights (Eschmann, Albani,
+// Loianno, Data-Driven System Identification of Quadrotors Subject to Motor Delays) are 1.029e-5
+// and 1.105e-5, and so they come out, to 3 %, if motors that are off count as driven: see
+// flight_coasting_test.cc.
+TEST(RealRefinement, ThreeLogsGiveABrushedCrazyflieAsOthersKnowIt) {
   IDENT_NEEDS_REAL_DATA(folder);
   const Vehicle vehicle = arplab_crazyflie_known_vaguely();
   std::vector<FlightLog> logs;
   for (const char* log : {"log10", "log15", "log16"}) logs.push_back(arplab_log(folder, vehicle, log));
   const Result result = refine_flight(vehicle, logs, {.validate = false});
-  EXPECT_NEAR(value_of(result, "Jxx"), 1.029e-5, 0.05 * 1.029e-5);
-  EXPECT_NEAR(value_of(result, "Jyy"), 1.105e-5, 0.05 * 1.105e-5);
+  EXPECT_TRUE(result.has_warning("not_driven"));
+  EXPECT_NEAR(value_of(result, "Jxx"), 1.395e-5, 0.1 * 1.395e-5);
+  EXPECT_NEAR(value_of(result, "Jyy"), 1.436e-5, 0.1 * 1.436e-5);
   const double lag = 2 * value_of(result, "zeta_m") / value_of(result, "omega_m");
   EXPECT_GT(lag, 0.06);
   EXPECT_LT(lag, 0.08);
   const std::vector<double> flown = flown_commands(logs);
-  for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95}) {
+  for (const double share : {0.1, 0.25, 0.5, 0.75, 0.95}) {
     const double u = flown[static_cast<std::size_t>(share * static_cast<double>(flown.size() - 1))];
-    EXPECT_NEAR(over_published(result, u), 1.0, 0.105) << "command " << u;  // 0.0995 at 0.57
+    EXPECT_NEAR(over_published(result, u), 1.0, 0.1) << "command " << u;
   }
 }
 
-// The one that was flown for it. In one command in twenty the motors are off, where no line leads: what is
-// near that comes out up to 18 % above the published curve, which carries 6 % less than was felt.
+// The one that was flown for it.
 TEST(RealRefinement, TheLogOfThrustAloneGivesItsCurveAsPublished) {
   IDENT_NEEDS_REAL_DATA(folder);
   const Vehicle vehicle = arplab_crazyflie_known_vaguely();
@@ -69,7 +72,7 @@ TEST(RealRefinement, TheLogOfThrustAloneGivesItsCurveAsPublished) {
   const std::vector<double> flown = flown_commands(logs);
   for (const double share : {0.1, 0.25, 0.5, 0.75, 0.95}) {
     const double u = flown[static_cast<std::size_t>(share * static_cast<double>(flown.size() - 1))];
-    EXPECT_NEAR(over_published(result, u), 1.0, share < 0.5 ? 0.18 : 0.1) << "command " << u;
+    EXPECT_NEAR(over_published(result, u), 1.0, 0.1) << "command " << u;
   }
   EXPECT_FALSE(result.has_warning("thrust_level"));
 }

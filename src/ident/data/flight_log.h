@@ -24,6 +24,8 @@ struct FlightLog {
   std::vector<double> vbat;                    ///< V
   std::vector<double> current;                 ///< A
   std::vector<std::array<double, 2>> windows;  ///< parts to use, s; empty: all
+  std::vector<std::array<double, 2>>
+      left_out;                ///< parts not to use, s: from the first until before the second
   std::vector<double> breaks;  ///< s; the row after such a time does not continue the one at it
   std::vector<Warning> warnings;
   std::vector<std::string> notices;  ///< units, frames and rates as they were decided

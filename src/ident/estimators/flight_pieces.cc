@@ -119,7 +119,10 @@ double seconds_of(const FlightLog& log, const Pieces& all) {
 
 Pieces whole_pieces(const FlightLog& log, double history, double longest_gap,
                     std::vector<Warning>& warnings) {
-  const std::vector<bool> fly = in_flight(log, warnings);
+  std::vector<bool> fly = in_flight(log, warnings);
+  for (const auto& [from, until] : log.left_out)
+    for (std::size_t i = 0; i < log.rows(); ++i)
+      if (log.t[i] >= from && log.t[i] < until) fly[i] = false;
   Pieces loose = pieces(log, fly, longest_gap, history);
   if (loose.empty()) {
     warnings.push_back({"log_not_used", log.file +

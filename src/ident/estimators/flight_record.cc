@@ -20,6 +20,7 @@ namespace ident {
 namespace {
 
 constexpr double kLongestDelay = 1.0;  ///< s of commands before a flight that may still be on their way
+constexpr double kStood = 0.1;         ///< s after rows with a motor off: it may not have come up to speed
 constexpr double kHistory = 0.05;  ///< s of commands beyond the stated dead time that a flight starts with
 
 Signals signals_of(std::span<const FlightLog> logs) {
@@ -158,8 +159,12 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     const std::vector<double> voltage = quiet_voltage(log);
     for (const auto& [begin, end] : whole_pieces(log, history, options.longest_gap, record.warnings))
       if (FlightArc arc = make_arc(log, voltage, static_cast<int>(n), begin, end, vehicle, v0, modes);
-          is_driven(arc))
+          is_driven(arc)) {
+        arc.stood = std::ranges::any_of(log.left_out, [&](const auto& part) {
+          return part[0] < log.t[begin] && part[1] > log.t[begin] - kStood;
+        });
         record.arcs.push_back(std::move(arc));
+      }
   }
   std::vector<double> intervals;
   for (const FlightArc& arc : record.arcs) {

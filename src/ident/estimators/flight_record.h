@@ -33,7 +33,8 @@ struct FlightArc {
   std::shared_ptr<const FlightInputs> rougher;      ///< where speeds are the input: the same, smoothed less
   std::shared_ptr<const SpeedErrors> speed_errors;  ///< where speeds are the input and have noise
   std::vector<BodyState<double>> body;              ///< [row] as read off the measurements
-  std::vector<MotorState<double>> motors;           ///< [row][rotor] measured, or simulated from the commands
+  bool stood = false;  ///< some motor may stand still where it begins: rows with one off were left out before
+  std::vector<MotorState<double>> motors;  ///< [row][rotor] measured, or simulated from the commands
 
   std::size_t rows() const { return t.size(); }
   std::size_t rotors() const { return motors.size() / rows(); }

@@ -33,7 +33,7 @@ FlightState<double> FlightArc::start(std::size_t row) const {
 
 FlightArc FlightArc::piece(std::size_t begin, std::size_t end) const {
   FlightArc out;
-  out.log = log;
+  out.log = log, out.stood = stood && begin == 0;
   const auto range = [&](const auto& v, std::size_t width) {
     return std::decay_t<decltype(v)>(v.begin() + static_cast<std::ptrdiff_t>(begin * width),
                                      v.begin() + static_cast<std::ptrdiff_t>(end * width));

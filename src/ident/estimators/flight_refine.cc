@@ -112,7 +112,7 @@ std::vector<std::string> watched_constants(const Result& result, const Signals& 
 // The same logs with measured speeds as the input, for rotors that jump as no command says.
 Result refined_by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs,
                          const RefineOptions& options, const FeltJitter& jitter) {
-  Result result = refine_flight(vehicle, without_commands(logs), options);
+  Result result = refine_as_logged(vehicle, without_commands(logs), options);
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
   result.warnings.push_back(
       jitter.warning("the speeds are taken for what the rotors do, and nothing is said of the motors"));
@@ -122,7 +122,7 @@ Result refined_by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs
 // The same with a damping that makes motors of first order, so that what is known of them can be stored.
 Result refined_as_first_order(const Vehicle& vehicle, std::span<const FlightLog> logs,
                               const RefineOptions& options, const MotorLag& lag) {
-  Result result = refine_flight(with_first_order_motors(vehicle, lag), logs, options);
+  Result result = refine_as_logged(with_first_order_motors(vehicle, lag), logs, options);
   if (const auto zeta_m = std::ranges::find(result.parameters, "zeta_m", &Parameter::name);
       zeta_m != result.parameters.end()) {
     zeta_m->prior_value.reset(), zeta_m->prior_std.reset(), zeta_m->pull.reset();
@@ -246,7 +246,8 @@ void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
   }
 }
 
-Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
+Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                        const RefineOptions& options) {
   Result result;
   result.command = "flightlog";
   auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);
@@ -286,7 +287,6 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   result.prior_correlation =
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   result.correlation = flight_correlation(theta, fit.covariance);
-
   const Refined refined{vehicle, logs, record, theta, fit, body, air_share(record, fit)};
   const SteadyPush push = steady_push(record, fit);
   judge(result, refined, push, vibration, tested);

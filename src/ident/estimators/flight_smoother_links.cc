@@ -31,7 +31,8 @@ constexpr double kUnseenRate = 1e-2, kUnseenAttitude = 1.0, kUnseenVelocity = 2.
 constexpr int kAllTold = 4;  // rotors, by the motion alone
 constexpr double kUnseenSpeed = 1e-3, kUnseenSpeeding = 1e-7;
 // Of four, where rates and forces are all that tells of them, and that may come ten times as slowly as motors
-// settle: 300 rad/s and 30000 rad/s^2, for thrust is no line over so much.
+// settle, and of all where some may stand still and the arc may be short: 300 rad/s and 30000 rad/s^2, for
+// thrust is no line over so much.
 constexpr double kHardlySeenSpeed = 1e-5, kHardlySeenSpeeding = 1e-9;
 // Of any other that was not measured, and that is over with a change before the next row: how its speed
 // changed just before, by half of the usual speed in the time of its lag. No row tells, and so much says
@@ -67,7 +68,8 @@ VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
   assume(layout.attitude, kUnseenAttitude, kAttitude, kAttitude);
   assume(layout.v, kUnseenVelocity, kVelocity, kPosition);
   assume(layout.x, kUnseenPlace, kPosition, kPosition);
-  const bool untold = layout.rotors > kAllTold, hardly = !untold && layout.attitude < 0;
+  const bool untold = layout.rotors > kAllTold && !arc.stood,
+             hardly = !untold && (layout.attitude < 0 || arc.stood);
   const std::vector<double>& p = record_->p;
   const double lag = 2 * p[param::zeta_m] / p[param::omega_m];
   const bool fast = 2 * p[param::zeta_m] * p[param::omega_m] * record_->interval > 1;

@@ -1,0 +1,25 @@
+// Motors that are off in flight: they coast, are braked or stand still, and do not follow their command.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ident/core/result.h"
+#include "ident/data/flight_log.h"
+#include "ident/model/vehicle.h"
+
+namespace ident {
+
+/// The logs with those rows `left_out` in which a motor is given nothing (a command of 0) for 10 ms or
+/// longer, until the stated dead time later. None where no log has such rows in flight; empty where hardly
+/// any flight would be left of one.
+std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
+                                                       std::span<const FlightLog> logs);
+
+/// A constant that flight tells, and of which a fit of all rows says something else than one of those with
+/// all motors driven, by more than three standard deviations of the difference [Hausman 1978]; empty: none.
+std::string contradicted_by_driven(const Result& all, const Result& driven);
+
+}  // namespace ident
