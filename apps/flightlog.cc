@@ -48,8 +48,7 @@ Outcome run(const Options& options, Context& context) {
   result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
   const bool simulated = !result.has_warning("no_turning");
   if (result.has_warning("speeds_jitter")) input.logs = without_commands(input.logs);
-  if (result.has_warning("not_driven"))
-    input.logs = *without_undriven(input.vehicle, input.logs);
+  if (result.has_warning("not_driven")) input.logs = *without_undriven(input.vehicle, input.logs);
   if (refine.shown != Shown::numbers && simulated) verify_too(result, input, options.horizon);
   if (input.campaign) {
     input.history.after = with_result(input.history.before, result);
