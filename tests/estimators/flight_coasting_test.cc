@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "ident/core/math.h"
@@ -34,21 +35,20 @@ Vehicle stated(Vehicle v, double off) {
 // With those rows the moments about roll and pitch come out 14 to 24 % too small, and sure of it.
 TEST(Coasting, MotorsThatAreOffTellNothing) {
   const Vehicle truth = quad();
-  for (const std::uint64_t seed : {1, 2})
-    for (const double coasts : {2.0, 5.0}) {
-      const FlightLog log = coasting_flight(truth, kLag, coasts, seed);
-      const Vehicle vehicle = stated(truth, seed == 2 ? -1 : 1);
-      const Result result = refine_flight(vehicle, std::span(&log, 1), {.validate = false}),
-                   all = refine_as_logged(vehicle, std::span(&log, 1), {.validate = false});
-      EXPECT_TRUE(result.has_warning("not_driven"));
-      for (const char* name : {"Jxx", "Jyy"}) {
-        const Parameter *p = result.find(name), *with = all.find(name);
-        EXPECT_TRUE(p->identifiable && with->identifiable) << name;
-        EXPECT_NEAR(p->value, truth.value(name), 3.5 * p->std) << name << " seed " << seed;
-        EXPECT_LT(p->std, 0.03 * truth.value(name)) << name;
-        EXPECT_LT(with->value, truth.value(name) - 4 * with->std) << name << " seed " << seed;
-      }
+  for (const auto& [seed, coasts, off] : {std::tuple{1, 2.0, 1.0}, std::tuple{2, 5.0, -1.0}}) {
+    const FlightLog log = coasting_flight(truth, kLag, coasts, static_cast<std::uint64_t>(seed));
+    const Vehicle vehicle = stated(truth, off);
+    const Result result = refine_flight(vehicle, std::span(&log, 1), {.validate = false}),
+                 all = refine_as_logged(vehicle, std::span(&log, 1), {.validate = false});
+    EXPECT_TRUE(result.has_warning("not_driven"));
+    for (const char* name : {"Jxx", "Jyy"}) {
+      const Parameter *p = result.find(name), *with = all.find(name);
+      EXPECT_TRUE(p->identifiable && with->identifiable) << name;
+      EXPECT_NEAR(p->value, truth.value(name), 3.5 * p->std) << name << " seed " << seed;
+      EXPECT_LT(p->std, 0.03 * truth.value(name)) << name;
+      EXPECT_LT(with->value, truth.value(name) - 4 * with->std) << name << " seed " << seed;
     }
+  }
 }
 
 // Nor where nothing tells the attitude, or several logs are given.

@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSlow = 100.0;  // rad/s: even from rest a step may go so far
+constexpr double kSlow = 100.0;  // rad/s: as if the fastest rotor turned so fast, where all stand still
+constexpr double kWild = 5.0;    // of its speed: a step by more is none that helps
 
 }  // namespace
 
@@ -77,7 +78,7 @@ FlightState<double> FlightSmoother::moved(const FlightState<double>& x, const Ve
     wild = std::max(wild, std::abs(dx[layout.motors + n]));
   }
   // Another of a first iteration: thrust is no line over more than that.
-  const double share = wild > fastest ? fastest / wild : 1.0;
+  const double most = kWild * fastest, share = wild > most ? most / wild : 1.0;
   for (int n = 0; n < layout.rotors; ++n) {
     y.motors[static_cast<std::size_t>(n)].Omega += share * dx[layout.motors + n];
     y.motors[static_cast<std::size_t>(n)].Omega_dot += share * dx[layout.motors + layout.rotors + n];
