@@ -160,9 +160,9 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
     for (const auto& [begin, end] : whole_pieces(log, history, options.longest_gap, record.warnings))
       if (FlightArc arc = make_arc(log, voltage, static_cast<int>(n), begin, end, vehicle, v0, modes);
           is_driven(arc)) {
-        arc.stood = std::ranges::any_of(log.left_out, [&](const auto& part) {
-          return part[0] < log.t[begin] && part[1] > log.t[begin] - kStood;
-        });
+        const double from = arc.t.front();
+        arc.stood = std::ranges::any_of(
+            log.left_out, [&](const auto& part) { return part[0] < from && part[1] > from - kStood; });
         record.arcs.push_back(std::move(arc));
       }
   }
