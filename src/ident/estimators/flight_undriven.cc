@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
@@ -85,7 +86,7 @@ std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
 std::string contradicted_by_driven(const Result& all, const Result& driven) {
   const bool like_motors = all.has_warning("first_order_motors") == driven.has_warning("first_order_motors");
   std::string name;
-  double most = kContradicts;
+  std::pair most{false, kContradicts};  // one that counts as known says most
   for (const Parameter& p : driven.parameters) {
     const Parameter* with = all.find(p.name);
     if (!with || !(p.std > 0) || (p.prior_std && p.std > kTold * *p.prior_std)) continue;
@@ -93,7 +94,8 @@ std::string contradicted_by_driven(const Result& all, const Result& driven) {
     // Fewer rows tell less, unless the others bend the fit: then it is not known how far these may be apart.
     const double apart =
         std::sqrt(std::max(std::abs(p.std * p.std - with->std * with->std), std::pow(kLeast * p.std, 2)));
-    if (const double by = std::abs(with->value - p.value) / apart; by > most) most = by, name = p.name;
+    const double by = std::abs(with->value - p.value) / apart;
+    if (by > kContradicts && std::pair{p.identifiable, by} > most) most = {p.identifiable, by}, name = p.name;
   }
   return name;
 }
