@@ -18,14 +18,13 @@ struct FlightLog {
   std::vector<std::vector<double>> Omega;  ///< [rotor][row] measured rotor speed, rad/s
   std::array<std::vector<double>, 3> w_B;  ///< p, q, r, rad/s
   std::array<std::vector<double>, 3> f_B;  ///< specific force, m/s^2
-  std::array<std::vector<double>, 4> q_WB;     ///< attitude, Hamilton, scalar first, body to world
-  std::array<std::vector<double>, 3> x_W;      ///< position NED, m
-  std::array<std::vector<double>, 3> v_W;      ///< velocity NED, m/s
-  std::vector<double> vbat;                    ///< V
-  std::vector<double> current;                 ///< A
-  std::vector<std::array<double, 2>> windows;  ///< parts to use, s; empty: all
-  std::vector<std::array<double, 2>>
-      left_out;                ///< parts not to use, s: from the first until before the second
+  std::array<std::vector<double>, 4> q_WB;      ///< attitude, Hamilton, scalar first, body to world
+  std::array<std::vector<double>, 3> x_W;       ///< position NED, m
+  std::array<std::vector<double>, 3> v_W;       ///< velocity NED, m/s
+  std::vector<double> vbat;                     ///< V
+  std::vector<double> current;                  ///< A
+  std::vector<std::array<double, 2>> windows;   ///< parts to use, s; empty: all
+  std::vector<std::array<double, 2>> left_out;  ///< parts not to use, [from, until) s
   std::vector<double> breaks;  ///< s; the row after such a time does not continue the one at it
   std::vector<Warning> warnings;
   std::vector<std::string> notices;  ///< units, frames and rates as they were decided

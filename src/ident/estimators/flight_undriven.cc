@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "ident/core/error.h"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr double kOff = 0.0099;      ///< s: so long without drive, a speed is another than the commanded one
 constexpr double kEnoughLeft = 0.3;  ///< of the flight of a log
-constexpr double kHistory = 0.05;    ///< s of commands that a flight starts with
 constexpr double kContradicts = 3.0;
 constexpr double kTold = 0.75;  // of what is known beforehand, at most, is left of what flight tells
 // Of the deviation by driven rows: nothing is said of less, for deviations are known no better themselves.
@@ -47,7 +47,7 @@ void add_stretches(const FlightLog& log, const std::vector<double>& delta, doubl
 double seconds_flown(const FlightLog& log) {
   std::vector<Warning> said;
   double sum = 0;
-  for (const auto& [begin, end] : whole_pieces(log, kHistory, RecordOptions{}.longest_gap, said))
+  for (const auto& [begin, end] : whole_pieces(log, 0.0, RecordOptions{}.longest_gap, said))
     sum += log.t[end - 1] - log.t[begin];
   return sum;
 }
@@ -61,6 +61,25 @@ std::optional<Result> refined(const Vehicle& vehicle, std::span<const FlightLog>
     if (has_to) throw;
     return {};
   }
+}
+
+// A constant that flight tells, and of which a fit of all rows says something else than one of those with all
+// motors driven, by more than three standard deviations of the difference [Hausman 1978]; empty: none.
+std::string contradicted_by_driven(const Result& all, const Result& driven) {
+  const bool like_motors = all.has_warning("first_order_motors") == driven.has_warning("first_order_motors");
+  std::string name;
+  std::pair most{false, kContradicts};  // one that counts as known says most
+  for (const Parameter& p : driven.parameters) {
+    const Parameter* with = all.find(p.name);
+    if (!with || !(p.std > 0) || (p.prior_std && p.std > kTold * *p.prior_std)) continue;
+    if (!like_motors && (p.name == "omega_m" || p.name == "zeta_m")) continue;
+    // Fewer rows tell less, unless the others bend the fit: then it is not known how far these may be apart.
+    const double apart =
+        std::sqrt(std::max(std::abs(p.std * p.std - with->std * with->std), std::pow(kLeast * p.std, 2)));
+    const double by = std::abs(with->value - p.value) / apart;
+    if (by > kContradicts && std::pair{p.identifiable, by} > most) most = {p.identifiable, by}, name = p.name;
+  }
+  return name;
 }
 
 }  // namespace
@@ -83,23 +102,6 @@ std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
   return out;
 }
 
-std::string contradicted_by_driven(const Result& all, const Result& driven) {
-  const bool like_motors = all.has_warning("first_order_motors") == driven.has_warning("first_order_motors");
-  std::string name;
-  std::pair most{false, kContradicts};  // one that counts as known says most
-  for (const Parameter& p : driven.parameters) {
-    const Parameter* with = all.find(p.name);
-    if (!with || !(p.std > 0) || (p.prior_std && p.std > kTold * *p.prior_std)) continue;
-    if (!like_motors && (p.name == "omega_m" || p.name == "zeta_m")) continue;
-    // Fewer rows tell less, unless the others bend the fit: then it is not known how far these may be apart.
-    const double apart =
-        std::sqrt(std::max(std::abs(p.std * p.std - with->std * with->std), std::pow(kLeast * p.std, 2)));
-    const double by = std::abs(with->value - p.value) / apart;
-    if (by > kContradicts && std::pair{p.identifiable, by} > most) most = {p.identifiable, by}, name = p.name;
-  }
-  return name;
-}
-
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   const auto driven = without_undriven(vehicle, logs);
   std::optional<Result> all = refined(vehicle, logs, options, !driven || driven->empty());
@@ -107,8 +109,10 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   if (!driven || (all && !all->find("omega_m"))) return *all;
   std::optional<Result> result;
   if (!driven->empty()) result = refined(vehicle, *driven, options, !all);
+  const auto wrong = [](const Result& r) { return !disqualified(r.warnings).empty(); };
+  if (all && result && wrong(*all) && wrong(*result)) return *all;
   // Pieces may be too short to tell how sensors are mounted and rotors turn.
-  if (!result || (all && !disqualified(result->warnings).empty())) {
+  if (!result || (all && wrong(*result))) {
     all->warn("motors_off",
               "motors are off (commands of 0) so often that little can be told without those rows: what "
               "they do there is taken from their commands, which does not hold for motors that coast");

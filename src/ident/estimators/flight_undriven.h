@@ -3,10 +3,8 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "ident/core/result.h"
 #include "ident/data/flight_log.h"
 #include "ident/model/vehicle.h"
 
@@ -17,9 +15,5 @@ namespace ident {
 /// any flight would be left of one.
 std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
                                                        std::span<const FlightLog> logs);
-
-/// A constant that flight tells, and of which a fit of all rows says something else than one of those with
-/// all motors driven, by more than three standard deviations of the difference [Hausman 1978]; empty: none.
-std::string contradicted_by_driven(const Result& all, const Result& driven);
 
 }  // namespace ident
