@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "campaign_priors.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident::app {
 

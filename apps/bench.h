@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "command.h"
-#include "ident/io/campaign.h"
-#include "ident/io/read_table.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/csv/read_table.h"
 
 namespace ident::app {
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "ident/io/sha256.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/file/sha256.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "ident/report/campaign_report.h"
 
 namespace ident::app {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/result.h"
-#include "ident/io/campaign.h"
-#include "ident/io/flight_history.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/campaign/flight_history.h"
+#include "ident/result/result.h"
 
 namespace ident::app {
 

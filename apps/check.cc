@@ -1,8 +1,8 @@
 // `ident check`: physical consistency of a vehicle or parameter file.
 #include "command.h"
-#include "ident/estimators/consistency.h"
-#include "ident/io/campaign.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/bench/check/consistency.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident::app {
 namespace {

@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "ident/core/error.h"
-#include "ident/core/result.h"
-#include "ident/core/shown.h"
-#include "ident/io/write_file.h"
+#include "ident/io/file/write_file.h"
+#include "ident/result/result.h"
+#include "ident/result/shown.h"
 
 namespace ident::app {
 

@@ -12,9 +12,9 @@
 
 #include "campaign_priors.h"
 #include "ident/core/parallel.h"
-#include "ident/io/read_flight_log.h"
-#include "ident/io/sha256.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/file/sha256.h"
+#include "ident/io/log/read_flight_log.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident::app {
 namespace {

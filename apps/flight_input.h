@@ -7,8 +7,8 @@
 
 #include "command.h"
 #include "ident/data/flight_log.h"
-#include "ident/io/campaign.h"
-#include "ident/io/flight_history.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/campaign/flight_history.h"
 
 namespace ident::app {
 

@@ -1,10 +1,10 @@
 // `ident flightlog`: a model against flight logs, verified as it is or refined.
 #include "flight_input.h"
-#include "ident/estimators/flight_jitter.h"
-#include "ident/estimators/flight_refine.h"
-#include "ident/estimators/flight_undriven.h"
-#include "ident/estimators/simulation_residuals.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/flight/checks/rotor_speed_jitter.h"
+#include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/io/vehicle/vehicle_file.h"
+#include "ident/views/simulation_residuals.h"
 
 namespace ident::app {
 namespace {

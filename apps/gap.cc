@@ -2,7 +2,7 @@
 // closes.
 #include "flight_input.h"
 #include "ident/gap/diagnose.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident::app {
 namespace {

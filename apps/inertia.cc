@@ -1,6 +1,6 @@
 // `ident inertia`: moments of inertia from a trifilar pendulum, and of a propeller from its measures.
 #include "bench.h"
-#include "ident/estimators/trifilar_inertia.h"
+#include "ident/bench/inertia/trifilar_inertia.h"
 
 namespace ident::app {
 namespace {

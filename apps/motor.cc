@@ -1,6 +1,6 @@
 // `ident motor`: motor constants from recordings of command steps.
 #include "bench.h"
-#include "ident/estimators/motor_step.h"
+#include "ident/bench/motor/motor_step.h"
 
 namespace ident::app {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "command.h"
-#include "ident/estimators/slant.h"
-#include "ident/io/campaign.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/bench/slant/slant.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "ident/report/campaign_report.h"
 #include "shell.h"
 

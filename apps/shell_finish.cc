@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "ident/io/sha256.h"
+#include "ident/io/file/sha256.h"
 #include "ident/report/campaign_report.h"
 #include "shell.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ident/io/campaign.h"
+#include "ident/io/campaign/campaign.h"
 #include "shell.h"
 
 namespace ident::app {

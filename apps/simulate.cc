@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "ident/effects/all_parameters.h"
 #include "ident/model/parameters.h"
 
 namespace ident::app {

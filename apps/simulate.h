@@ -3,8 +3,8 @@
 
 #include "command.h"
 #include "ident/data/table.h"
-#include "ident/io/write_csv.h"
-#include "ident/model/simulate_bench.h"
+#include "ident/io/csv/write_csv.h"
+#include "ident/sim/simulate_bench.h"
 
 namespace ident::app {
 

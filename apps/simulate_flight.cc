@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "ident/io/vehicle_file.h"
-#include "ident/model/scenario.h"
-#include "ident/model/simulate.h"
+#include "ident/io/vehicle/vehicle_file.h"
+#include "ident/sim/scenario.h"
+#include "ident/sim/simulate.h"
 #include "simulate.h"
 
 namespace ident::app {

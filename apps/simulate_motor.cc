@@ -1,5 +1,5 @@
 // `ident simulate motor`: a recording of command steps as a table.
-#include "ident/io/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "simulate.h"
 
 namespace ident::app {

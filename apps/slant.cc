@@ -1,9 +1,9 @@
 // `ident slant`: the slant angle that decouples a 4SP quadrotor.
-#include "ident/estimators/slant.h"
+#include "ident/bench/slant/slant.h"
 
 #include "command.h"
-#include "ident/io/campaign.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident::app {
 namespace {

@@ -1,6 +1,6 @@
 // `ident thrust`: thrust and torque constant of a propeller from bench sweeps.
 #include "bench.h"
-#include "ident/estimators/thrust_sweep.h"
+#include "ident/bench/thrust/thrust_sweep.h"
 
 namespace ident::app {
 namespace {

@@ -10,7 +10,7 @@ trap 'rm -r "$scratch"' EXIT
 cd "$scratch"
 ar x "$1"
 for isa in avx2:IsaAvx2 avx512:IsaAvx512; do
-  for object in ./flight_kernel_"${isa%%:*}".cc.o ./dense_rows_"${isa%%:*}".cc.o; do
+  for object in ./kernel_"${isa%%:*}".cc.o ./dense_rows_"${isa%%:*}".cc.o; do
     shared=$(nm -C --defined-only "$object" | grep -E '^[0-9a-f]+ [TWV] ' |
       grep -vE "${isa##*:}|evaluate_chunk_|ident::dense_rows_|DW.ref" || true)
     if [ -n "$shared" ]; then

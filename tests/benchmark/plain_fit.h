@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "ident/estimators/flight_record.h"
-#include "ident/estimators/flight_theta.h"
+#include "ident/flight/record/flight_record.h"
+#include "ident/flight/smoother/parameterisation.h"
 
 namespace ident {
 

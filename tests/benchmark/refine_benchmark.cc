@@ -13,11 +13,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "ident/estimators/flight_fit.h"
-#include "ident/estimators/flight_fit_steps.h"
-#include "ident/estimators/instruction_set.h"
-#include "ident/io/read_flight_log.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/core/simd/instruction_set.h"
+#include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_steps.h"
+#include "ident/io/log/read_flight_log.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "plain_fit.h"
 
 namespace ident {

@@ -134,7 +134,7 @@ def arplab(program, data):
           " rows, in which they coast, the moments about roll and pitch come out as published, 1.05 and 1.10, and other flight is"
           " predicted worse than by what was stated; without them (`not_driven`) the logs agree with each other better. In simulated"
           " flights whose motors coast those rows make the moments 14 to 24 % too small"
-          " (tests/estimators/flight_coasting_test.cc).\n")
+          " (tests/flight/coasting_test.cc).\n")
     print("Thrust of a rotor by command over the published curve, with its standard deviation:\n")
     print("| flights | command: thrust over the published |\n|---|---|")
     for name, (result, _) in results:

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-#include "ident/io/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "support/run_program.h"
 
 namespace ident {

@@ -3,8 +3,9 @@
 
 #include "ident/core/dual.h"
 #include "ident/core/random.h"
+#include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "ident/model/flight.h"
 #include "support/run_program.h"
 

@@ -1,9 +1,10 @@
 // Every effect of effects.def, put into a simulated flight, is found again by the flight estimator.
 #include <gtest/gtest.h>
 
+#include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"
-#include "ident/estimators/flight_fit.h"
-#include "ident/model/simulate.h"
+#include "ident/flight/fit/fit.h"
+#include "ident/sim/simulate.h"
 
 namespace ident {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "ident/effects/catalogue.h"
 #include "ident/gap/diagnose.h"
-#include "ident/model/simulate.h"
+#include "ident/sim/simulate.h"
 #include "support/known_quad.h"
 
 namespace ident {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ident/estimators/flight_refine.h"
+#include "ident/flight/refine.h"
 #include "ident/gap/diagnose.h"
 #include "support/path_only.h"
 #include "support/real_data.h"

@@ -5,8 +5,8 @@
 
 #include "ident/effects/catalogue.h"
 #include "ident/gap/diagnose.h"
-#include "ident/gap/level_thrust.h"
-#include "ident/io/read_flight_log.h"
+#include "ident/gap/statistics/level_thrust.h"
+#include "ident/io/log/read_flight_log.h"
 #include "support/real_data.h"
 
 namespace ident {

@@ -15,10 +15,10 @@
 #include <sstream>
 
 #include "ident/core/error.h"
-#include "ident/io/campaign.h"
-#include "ident/io/read_flight_log.h"
-#include "ident/io/read_table.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/csv/read_table.h"
+#include "ident/io/log/read_flight_log.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident {
 namespace {

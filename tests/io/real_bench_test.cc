@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ident/io/read_table.h"
+#include "ident/io/csv/read_table.h"
 #include "support/real_data.h"
 
 namespace ident {

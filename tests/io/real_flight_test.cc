@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
-#include "ident/io/read_flight_log.h"
+#include "ident/io/log/read_flight_log.h"
 #include "support/real_data.h"
 
 namespace ident {

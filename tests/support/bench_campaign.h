@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/result.h"
 #include "ident/data/table.h"
+#include "ident/result/result.h"
 
 namespace ident::bench {
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "ident/estimators/trifilar_inertia.h"
+#include "ident/bench/inertia/trifilar_inertia.h"
 #include "support/bench_campaign.h"
 
 namespace ident::bench {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "ident/estimators/motor_step.h"
+#include "ident/bench/motor/motor_step.h"
 #include "support/bench_campaign.h"
 
 namespace ident::bench {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "ident/estimators/thrust_sweep.h"
+#include "ident/bench/thrust/thrust_sweep.h"
 #include "support/bench_campaign.h"
 
 namespace ident::bench {

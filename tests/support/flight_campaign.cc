@@ -8,8 +8,8 @@
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
-#include "ident/estimators/flight_refine.h"
-#include "ident/io/vehicle_file.h"
+#include "ident/flight/refine.h"
+#include "ident/io/vehicle/vehicle_file.h"
 #include "support/random_vehicle.h"
 #include "support/ring_of_rotors.h"
 #include "support/shaken.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "ident/data/flight_log.h"
-#include "ident/estimators/flight_noise.h"
-#include "ident/model/simulate.h"
+#include "ident/flight/kernel/noise_model.h"
 #include "ident/model/vehicle.h"
+#include "ident/sim/simulate.h"
 
 namespace ident::flight_campaign {
 

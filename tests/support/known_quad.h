@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ident/core/random.h"
-#include "ident/model/simulate.h"
+#include "ident/sim/simulate.h"
 
 namespace ident::testing {
 

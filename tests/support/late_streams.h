@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "ident/estimators/flight_entry.h"
-#include "ident/estimators/flight_streams.h"
-#include "ident/model/simulate.h"
+#include "ident/flight/conditioning/align_streams.h"
+#include "ident/flight/prepare.h"
+#include "ident/sim/simulate.h"
 
 namespace ident::testing {
 

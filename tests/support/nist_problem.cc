@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "ident/estimators/least_squares_autodiff.h"
+#include "ident/lsq/least_squares_autodiff.h"
 
 namespace ident::nist {
 namespace {

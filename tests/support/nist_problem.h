@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/estimators/least_squares.h"
+#include "ident/lsq/least_squares.h"
 
 namespace ident::nist {
 

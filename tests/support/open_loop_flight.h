@@ -1,7 +1,7 @@
 // A small quadrotor flown open loop about hover, and chunks of that flight as tasks for the kernel.
 #pragma once
 
-#include "ident/estimators/flight_fit.h"
+#include "ident/flight/fit/fit.h"
 
 namespace ident {
 

@@ -1,9 +1,9 @@
 // The published vehicle in hover, as a log and as the record of it.
 #pragma once
 
-#include "ident/estimators/flight_record.h"
-#include "ident/io/vehicle_file.h"
-#include "ident/model/simulate.h"
+#include "ident/flight/record/flight_record.h"
+#include "ident/io/vehicle/vehicle_file.h"
+#include "ident/sim/simulate.h"
 
 namespace ident::testing {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-#include "ident/io/read_flight_log.h"
+#include "ident/io/log/read_flight_log.h"
 #include "ident/model/vehicle.h"
 
 namespace ident {

@@ -1,7 +1,7 @@
 // Made-up results with every kind of table and plot, to look at reports without running an estimator.
 #pragma once
 
-#include "ident/core/result.h"
+#include "ident/result/result.h"
 
 namespace ident::testing {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "ident/model/simulate.h"
 #include "ident/model/vehicle.h"
+#include "ident/sim/simulate.h"
 
 namespace ident::testing {
 

@@ -4,7 +4,7 @@
 #include "ident/core/math.h"
 #include "ident/core/random.h"
 #include "ident/data/flight_log.h"
-#include "ident/estimators/flight_noise.h"
+#include "ident/flight/kernel/noise_model.h"
 
 namespace ident::testing {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/gap/next_model.h"
+#include "ident/gap/hypotheses/next_model.h"
 
 namespace ident {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/gap/verdict.h"
+#include "ident/gap/verdict/verdict.h"
 
 namespace ident {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/result.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

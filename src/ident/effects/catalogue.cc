@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ident/core/error.h"
+#include "ident/effects/all_parameters.h"
 
 namespace ident {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/result.h"
-#include "ident/core/shown.h"
 #include "ident/data/flight_log.h"
 #include "ident/model/vehicle.h"
+#include "ident/result/result.h"
+#include "ident/result/shown.h"
 
 namespace ident {
 

@@ -10,13 +10,13 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/statistics.h"
 #include "ident/effects/catalogue.h"
-#include "ident/estimators/flight_trim.h"
-#include "ident/estimators/statistics.h"
-#include "ident/gap/causes_tried.h"
-#include "ident/gap/further.h"
-#include "ident/gap/gap_sections.h"
-#include "ident/gap/verdict.h"
+#include "ident/flight/trim/trim.h"
+#include "ident/gap/evidence/causes_tried.h"
+#include "ident/gap/search/further.h"
+#include "ident/gap/verdict/verdict.h"
+#include "ident/gap/views/gap_sections.h"
 
 namespace ident {
 namespace {

@@ -2,8 +2,8 @@
 // and which cause that shows in it explains the difference.
 #pragma once
 
-#include "ident/core/result.h"
-#include "ident/estimators/flight_record.h"
+#include "ident/flight/record/flight_record.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

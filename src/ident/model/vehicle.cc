@@ -2,7 +2,6 @@
 #include "ident/model/vehicle.h"
 
 #include "ident/core/error.h"
-#include "ident/model/parameters.h"
 
 namespace ident {
 namespace {
@@ -37,11 +36,6 @@ std::vector<Rotor> slanted_rotors(double l, double alpha) {
 }
 
 }  // namespace
-
-double Vehicle::value(const std::string& parameter) const {
-  const auto at = parameters.find(parameter);
-  return at != parameters.end() ? at->second.value : default_value(parameter);
-}
 
 std::vector<Rotor> layout_rotors(const std::string& layout, double arm, double slant) {
   if (layout == "plus") return plus_rotors(arm);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/correlation.h"
-#include "ident/core/result.h"
+#include "ident/result/correlation.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

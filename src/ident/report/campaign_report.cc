@@ -8,9 +8,10 @@
 #include <filesystem>
 
 #include "ident/core/error.h"
-#include "ident/io/campaign.h"
-#include "ident/io/read_bytes.h"
-#include "ident/io/sha256.h"
+#include "ident/effects/all_parameters.h"
+#include "ident/io/campaign/campaign.h"
+#include "ident/io/file/read_bytes.h"
+#include "ident/io/file/sha256.h"
 #include "ident/model/parameters.h"
 #include "ident/report/blocks.h"
 #include "ident/report/stored_result.h"

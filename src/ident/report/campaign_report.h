@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/result.h"
 #include "ident/model/vehicle.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

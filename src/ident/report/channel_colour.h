@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ident/core/result.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "ident/core/result.h"
 #include "ident/report/scale.h"
 #include "ident/report/svg.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

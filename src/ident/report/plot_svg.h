@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ident/core/result.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

@@ -1,7 +1,7 @@
 // A result kept for a later report: everything in it as JSON, and back without loss.
 #pragma once
 
-#include "ident/core/result.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

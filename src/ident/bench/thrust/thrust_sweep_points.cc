@@ -1,0 +1,193 @@
+// From rows to steady points; sign by slope.
+#include "ident/bench/thrust/thrust_sweep_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/bench/thrust/thrust_sweep_lag.h"
+#include "ident/bench/thrust/thrust_sweep_tare.h"
+#include "ident/core/error.h"
+#include "ident/core/statistics.h"
+
+namespace ident {
+namespace {
+
+constexpr std::size_t kMostRows = 3000;  // beyond it rows of a set-point are averaged as in a log
+constexpr std::size_t kFewestInADwell = 3;
+constexpr std::size_t kFewestPoints = 3;
+constexpr std::size_t kFewestDwells = 4;
+
+double square(double v) { return v * v; }
+
+/// Median of the slopes of y over Omega^2 between points that are far apart, and of what is left at zero.
+void rough_line(SweepChannel& channel) {
+  std::vector<SweepPoint> sorted = channel.moving;
+  std::ranges::sort(sorted, {}, &SweepPoint::Omega);
+  std::vector<double> slopes, left;
+  const std::size_t n = sorted.size(), half = std::max<std::size_t>(1, n / 2);
+  for (std::size_t i = 0; i + half < n; ++i) {
+    const double run = square(sorted[i + half].Omega) - square(sorted[i].Omega);
+    if (run > 0.0) slopes.push_back((sorted[i + half].value - sorted[i].value) / run);
+  }
+  channel.start_constant = slopes.empty() ? kNaN : median(slopes);
+  for (const SweepPoint& p : sorted) left.push_back(p.value - channel.start_constant * square(p.Omega));
+  channel.start_tare = std::isfinite(channel.rest_mean) ? channel.rest_mean
+                       : channel.rest.empty()           ? median(left)
+                                                        : median(channel.rest);
+}
+
+void turn_round(SweepChannel& channel) {
+  if (!(channel.start_constant < 0.0)) return;
+  channel.reversed = true;
+  for (SweepPoint& p : channel.moving) p.value = -p.value;
+  for (double& v : channel.rest) v = -v;
+  channel.rest_mean = -channel.rest_mean;
+  channel.start_constant = -channel.start_constant;
+  channel.start_tare = -channel.start_tare;
+}
+
+/// Every row a point.
+void take_rows(const SweepRows& rows, const std::vector<double>& y, SweepChannel& channel) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!std::isfinite(y[i]) || !std::isfinite(rows.Omega[i])) continue;
+    if (rows.at_rest[i]) {
+      channel.rest.push_back(y[i]);
+      channel.rest_place.push_back(rows.place[i]);
+    } else {
+      channel.moving.push_back({rows.Omega[i], y[i], rows.place[i], rows.set_point[i]});
+    }
+  }
+  channel.used = channel.moving.size() + channel.rest.size();
+}
+
+/// Every set-point a point: robust mean of the force, speed over the same rows. Returns the stays at rest.
+std::vector<RestStay> take_dwells(const SweepRows& rows, const std::vector<double>& y,
+                                  SweepChannel& channel) {
+  std::vector<double> values, speeds, places;
+  std::vector<RestStay> stays;
+  const auto close = [&](int set_point, bool at_rest) {
+    if (values.size() >= kFewestInADwell) {
+      const RobustMean found = robust_mean(values);
+      channel.used += found.used;
+      if (at_rest) {
+        stays.push_back(rest_stay(mean(places), values));
+        channel.rest.push_back(found.value);
+        channel.rest_place.push_back(mean(places));
+      } else {
+        channel.moving.push_back({robust_mean(speeds).value, found.value, mean(places), set_point});
+      }
+    }
+    values.clear(), speeds.clear(), places.clear();
+  };
+  int current = -1;
+  bool rest = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows.set_point[i] < 0 && (rows.is_log || !rows.at_rest[i])) continue;
+    if (rows.set_point[i] != current || rows.at_rest[i] != rest) {
+      close(current, rest);
+      current = rows.set_point[i], rest = rows.at_rest[i];
+    }
+    if (!std::isfinite(y[i]) || !std::isfinite(rows.Omega[i])) continue;
+    values.push_back(y[i]), speeds.push_back(rows.Omega[i]), places.push_back(rows.place[i]);
+  }
+  close(current, rest);
+  return stays;
+}
+
+/// The level of the tare from the stays at rest of a log; its drift is taken off the points.
+void take_tare(const std::vector<RestStay>& stays, SweepChannel& channel) {
+  if (stays.empty()) return;
+  const TareDrift tare(stays);
+  channel.rest_mean = tare.mean();
+  channel.rest_std = tare.std();
+  channel.drifts = tare.drifts();
+  for (SweepPoint& p : channel.moving) p.value -= tare.deviation(p.place);
+}
+
+SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std::string name,
+                        std::string unit, SweepPoints& points) {
+  SweepChannel channel{.name = std::move(name), .unit = std::move(unit)};
+  if (y.empty()) return channel;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    channel.rows += std::isfinite(y[i]) && std::isfinite(rows.Omega[i]);
+  std::vector<RestStay> stays;
+  if (points.averaged)
+    stays = take_dwells(rows, y, channel);
+  else
+    take_rows(rows, y, channel);
+  if (rows.is_log && channel.moving.size() < kFewestDwells) {
+    const LaggedPoints lagged = lagged_points(rows, y);
+    if (lagged.points.size() > channel.moving.size()) {
+      channel.moving = lagged.points;
+      points.lag = lagged.lag;
+    }
+  }
+  if (channel.moving.size() < 2) {
+    channel.moving.clear();
+    return channel;
+  }
+  take_tare(stays, channel);
+  rough_line(channel);
+  turn_round(channel);
+  return channel;
+}
+
+/// Is there more than one reading, to a millionth?
+bool changes(const SweepChannel& channel) {
+  double low = channel.moving[0].value, high = low;
+  for (const SweepPoint& p : channel.moving) low = std::min(low, p.value), high = std::max(high, p.value);
+  for (const double v : channel.rest) low = std::min(low, v), high = std::max(high, v);
+  return high - low > 1e-6 * std::max(std::fabs(low), std::fabs(high));
+}
+
+/// Squared speeds that differ by 5 % at least, rest included.
+bool has_range(const SweepChannel& channel) {
+  const auto [low, high] = std::ranges::minmax(channel.moving, {}, &SweepPoint::Omega);
+  return !channel.rest.empty() || square(low.Omega) < 0.95 * square(high.Omega);
+}
+
+void expect_thrust(const SweepChannel& thrust, const std::string& file) {
+  if (thrust.moving.size() < kFewestPoints)
+    throw DataError(
+        fmt::format("{}: only {} steady points with thrust and rotor speed: kT needs at least {} at "
+                    "different speeds",
+                    file, thrust.moving.size(), kFewestPoints));
+  if (!has_range(thrust))
+    throw DataError(file +
+                    ": all rows were taken at one rotor speed and none at rest: kT needs thrust at "
+                    "different speeds");
+  if (!changes(thrust) || !std::isfinite(thrust.start_constant))
+    throw DataError(file +
+                    ": thrust is the same in every row: the column is not that of a force that was "
+                    "measured");
+}
+
+}  // namespace
+
+double SweepChannel::full_scale() const {
+  constexpr double kGross = 2.0;  // times what the rough law says: a slip of the pen, no scale
+  double top = 0.0, any = 0.0;
+  for (const SweepPoint& p : moving) {
+    const double value = std::fabs(p.value - start_tare);
+    any = std::max(any, value);
+    if (value <= kGross * std::fabs(start_constant) * p.Omega * p.Omega) top = std::max(top, value);
+  }
+  return top > 0 ? top : any;
+}
+
+SweepPoints sweep_points(const SweepRows& rows) {
+  SweepPoints points;
+  const bool repeated = static_cast<std::size_t>(rows.set_points) * kFewestInADwell < rows.size();
+  points.averaged = rows.is_log || (rows.size() > kMostRows && repeated);
+  points.thrust = channel_of(rows, rows.thrust, "thrust", "N", points);
+  points.torque = channel_of(rows, rows.torque, "torque", "N m", points);
+  expect_thrust(points.thrust, rows.file);
+  if (points.torque.moving.size() < kFewestPoints || !std::isfinite(points.torque.start_constant) ||
+      !changes(points.torque) || !has_range(points.torque))
+    points.torque.moving.clear();
+  return points;
+}
+
+}  // namespace ident

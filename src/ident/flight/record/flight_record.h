@@ -1,0 +1,103 @@
+// Flight logs made ready for estimation: uninterrupted arcs in flight, channels by number, noise levels to
+// start from.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ident/data/flight_log.h"
+#include "ident/flight/kernel/kernel.h"
+#include "ident/flight/kernel/noise_model.h"
+
+namespace ident {
+
+/// What is left of the noise of smoothed rotor speeds, by mode and row.
+struct SpeedErrors {
+  std::vector<double> t;                      ///< s
+  std::vector<std::vector<double>> variance;  ///< of the speed, (rad/s)^2
+  std::vector<std::vector<double>> density;   ///< of what was measured, (rad/s)^2 s: variance by distance
+  std::vector<std::vector<double>> other;     ///< what another smoothing says, against this one, rad/s
+  Eigen::MatrixXd
+      modes;  ///< [mode][rotor], orthogonal: errors of modes have nothing in common. Empty: rotors
+};
+
+/// An uninterrupted piece of one log.
+struct FlightArc {
+  int log = 0;
+  std::vector<double> t;                            ///< s
+  std::vector<double> y;                            ///< [row][kChannels], NaN where not sampled
+  std::vector<double> q;                            ///< [row][4] measured attitude
+  std::shared_ptr<const FlightInputs> inputs;       ///< of the whole log; pieces of an arc share them
+  std::shared_ptr<const FlightInputs> rougher;      ///< where speeds are the input: the same, smoothed less
+  std::shared_ptr<const SpeedErrors> speed_errors;  ///< where speeds are the input and have noise
+  std::vector<BodyState<double>> body;              ///< [row] as read off the measurements
+  bool stood = false;  ///< some motor may stand still where it begins: rows with one off were left out before
+  std::vector<MotorState<double>> motors;  ///< [row][rotor] measured, or simulated from the commands
+
+  std::size_t rows() const { return t.size(); }
+  std::size_t rotors() const { return motors.size() / rows(); }
+  /// To start from at a row; nothing acts from outside.
+  FlightState<double> start(std::size_t row) const;
+  /// The rows [begin, end) as an arc of their own.
+  FlightArc piece(std::size_t begin, std::size_t end) const;
+};
+
+/// Whether a channel group was logged at all.
+struct Signals {
+  bool commands = false, rates = false, force = false, attitude = false, velocity = false, position = false,
+       rotor_speeds = false, voltage = false;
+};
+
+struct FlightRecord {
+  const Vehicle* vehicle = nullptr;
+  std::vector<FlightArc> arcs;
+  int logs = 0;
+  Signals signals;
+  StateLayout layout;
+  std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
+  SlowErrors slow{};                      ///< to start from; see slow_errors()
+  double interval = 0.0;                  ///< median time between rows, s
+  double duration = 0.0;                  ///< of all arcs, s
+  double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
+  double turns_apart =
+      0.0;  ///< s that rates and attitude were apart in the logs: one of them was not in time
+  std::vector<Warning> warnings;
+  std::vector<double> p;  ///< the stated constants: states to start from are simulated with them, and what
+                          ///< errors of speeds do is reckoned by them
+};
+
+struct RecordOptions {
+  double longest_gap = 0.25;  ///< s without a row that ends an arc
+};
+
+/// Splits logs into arcs in flight. `p` are the constants to start from (motor states are simulated with
+/// them). Throws DataError when nothing is left to estimate from.
+FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
+                                std::span<const FlightLog> logs, const RecordOptions& options = {});
+
+/// Throws DataError where a path was logged, but nothing of how the vehicle turned along it: a fit
+/// does not find that.
+void require_turning(const Signals& logged);
+
+/// The record without its arcs.
+FlightRecord without_arcs(const FlightRecord& record);
+
+/// Share of each log to which a model is fitted that is judged on the rest.
+inline constexpr double kTrainingShare = 0.7;
+
+/// End (s) of the first `training_share` of an arc's time.
+double training_end(const FlightArc& arc, double training_share);
+
+/// What is left of every arc after `training_share` of its time.
+FlightRecord held_out_of(const FlightRecord& record, double training_share);
+
+/// Stretches of about that many seconds, evenly spread, that make `share` of the flight; of short arcs some,
+/// whole. Something of every log.
+FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds);
+
+/// Name of a channel: p, ax, attitude x, omega1.
+std::string channel_name(int channel);
+
+}  // namespace ident

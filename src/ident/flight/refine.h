@@ -1,0 +1,47 @@
+// Refinement: all constants together from several logs, bench results as priors, and what these logs cannot
+// tell.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "ident/data/flight_log.h"
+#include "ident/flight/conditioning/rotor_vibration.h"
+#include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fitted_parameters.h"
+#include "ident/flight/fit/prediction.h"
+#include "ident/result/result.h"
+#include "ident/result/shown.h"
+
+namespace ident {
+
+struct RefineOptions {
+  std::vector<std::string> free;  ///< further constants to estimate, by name
+  bool validate = true;           ///< prediction error on held-out flight, before and after
+  Shown shown = Shown::pictures;  ///< sections beyond that are left out
+  int bootstrap = 0;              ///< draws of a block bootstrap in place of the sandwich; 0: none
+  std::function<void(double)> progress;
+};
+
+/// `ident flightlog --refine`. Throws DataError when the logs hold nothing to estimate from. Rows in which a
+/// motor is off are not used where the rest contradicts them (`not_driven`).
+Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                     const RefineOptions& options = {});
+
+/// The same, of all rows.
+Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                        const RefineOptions& options);
+
+/// `ident flightlog`: the vehicle as stated against the logs over short windows, as [Phang] verifies his
+/// model: RMS, fit in percent and Theil's inequality coefficient per channel.
+Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
+
+/// Warns where the flight disagrees with what was known beforehand, and of what it does not determine.
+void warn_about(Result& result, const Theta& theta, const FlightFit& fit);
+
+/// Data health: rates, arcs, noise levels, units and frames as they were decided.
+Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise,
+                    const Vibration& vibration);
+
+}  // namespace ident

@@ -1,0 +1,87 @@
+// Predictions of held-out flight by the model as given and by the model found.
+#include "ident/gap/evidence/held_out_gap.h"
+
+#include <algorithm>
+
+#include "ident/core/json_number.h"
+#include "ident/gap/hypotheses/cause_alone.h"
+
+namespace ident {
+namespace {
+
+nlohmann::ordered_json as_json(const GapClosed& gap) {
+  return {{"before", number_or_null(gap.before)},
+          {"after", number_or_null(gap.after)},
+          {"noise_floor", number_or_null(gap.floor)},
+          {"closed", number_or_null(gap.closed)},
+          {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}}};
+}
+
+constexpr double kJudgedHorizon = 0.5;  // s
+
+bool has_room(const HeldOutGap& all, double horizon) {
+  const double least = all.windows.history + horizon;
+  return std::ranges::any_of(all.record.arcs,
+                             [&](const FlightArc& arc) { return arc.t.back() - arc.t.front() > least; });
+}
+
+GapClosed judged_of(const HeldOutGap& all) {
+  constexpr std::size_t kFewWindows = 10;
+  GapClosed out = all.gap;
+  if (has_room(all, kJudgedHorizon)) return out;
+  const bool pieces = all.windows.horizons[0] < kJudgedHorizon && all.before[0].size() >= kFewWindows;
+  if (pieces) return all.horizons[0];
+  out.held_out = false;
+  return out;
+}
+
+}  // namespace
+
+HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search) {
+  HeldOutGap all{.record = held_out_of(record, kTrainingShare)};
+  all.windows.steps = search.best.fit.smoother->steps();
+  all.found = fit_of_training(search.best.fit, record, *search.best.theta, kTrainingShare);
+  // "Before" is the model as it was given: bench values, with the biases of the fit.
+  all.stated = search.base.fit.u;
+  all.stated.head(search.base.theta->constants_count()).setZero();
+  const NoiseModel& noise = search.form.noise;
+  all.before =
+      predict_windows(all.record, *search.base.theta, all.stated, noise, without_floors(all.windows));
+  all.after = predict_windows(all.record, *search.best.theta, all.found, noise, all.windows);
+  for (std::size_t h = 0; h < all.windows.horizons.size(); ++h) {
+    all.horizons.push_back(gap_closed(all.before[h], all.after[h]));
+    if (all.windows.horizons[h] == kJudgedHorizon) all.gap = all.horizons.back();
+  }
+  all.judged = judged_of(all);
+  return all;
+}
+
+GapClosed closed_alone(const HeldOutGap& all, const SearchResult& search, const Candidate& cause) {
+  if (search.best.adopted.size() == 1) return all.gap;
+  PredictionOptions fewer = all.windows;  // every other one tells causes apart
+  fewer.horizons = {all.windows.horizons[1]}, fewer.spacing *= 2;
+  const auto alone = predict_windows(all.record, *search.best.theta, with_only(search.best, all.found, cause),
+                                     search.form.noise, fewer);
+  return gap_closed(same_windows(all.before[1], alone[0]), alone[0]);
+}
+
+PredictionOptions without_floors(PredictionOptions windows) {
+  windows.floors = false;
+  return windows;
+}
+
+HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise) {
+  return {all.record, all.stated, all.found, noise, all.before.back(), all.after.back()};
+}
+
+nlohmann::ordered_json as_json(const HeldOutGap& all) {
+  nlohmann::ordered_json out = as_json(all.gap), horizons = nlohmann::ordered_json::array();
+  for (std::size_t h = 0; h < all.horizons.size(); ++h) {
+    horizons.push_back({{"horizon", all.windows.horizons[h]}});
+    horizons.back().update(as_json(all.horizons[h]));
+  }
+  out["horizons"] = horizons;
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,36 @@
+// How far the gap closes on flight that was not fitted.
+#pragma once
+
+#include <vector>
+
+#include "ident/flight/fit/prediction.h"
+#include "ident/gap/evidence/evidence.h"
+#include "ident/gap/search/search_result.h"
+
+namespace ident {
+
+/// Both models fitted to the first 70 % of each log, judged on the rest under the final noise.
+struct HeldOutGap {
+  FlightRecord record;            ///< the rest
+  Eigen::VectorXd stated, found;  ///< unknowns: the base model as given, the model found
+  PredictionOptions windows;      ///< over which both predict
+  std::vector<std::vector<PredictionWindow>> before, after;  ///< a list for each horizon
+  std::vector<GapClosed> horizons;
+  GapClosed gap;     ///< over 0.5 s
+  GapClosed judged;  ///< the same; over a shorter time where a flight in pieces has none as long
+};
+HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search);
+
+/// The same of one of the causes found, by itself, over 0.5 s.
+GapClosed closed_alone(const HeldOutGap& all, const SearchResult& search, const Candidate& cause);
+
+/// The same windows, errors only.
+PredictionOptions without_floors(PredictionOptions windows);
+
+/// For pictures and signatures.
+HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise);
+
+/// As `gap` of a result, with its `horizons`.
+nlohmann::ordered_json as_json(const HeldOutGap& all);
+
+}  // namespace ident

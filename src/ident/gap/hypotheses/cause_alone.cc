@@ -1,0 +1,46 @@
+// The constants of all other causes at the values at which they do nothing.
+#include "ident/gap/hypotheses/cause_alone.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/gap/hypotheses/candidates.h"
+#include "ident/gap/hypotheses/next_model.h"
+
+namespace ident {
+
+Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, const Candidate& cause) {
+  constexpr double kNothing = -30.0;  // of the logarithm of what is positive
+  Eigen::VectorXd out = u;
+  const std::vector<FreeConstant>& constants = model.theta->constants();
+  for (const Candidate& other : model.adopted) {
+    const bool carries = other.name == "rotor_drag" || other.name == "parasitic_drag";
+    if (same(other, cause) || (carries && cause.name == "wind")) continue;
+    for (std::size_t i = 0; i < constants.size(); ++i) {
+      const FreeConstant& c = constants[i];
+      if (!is_constant_of(other, c, static_cast<int>(i))) continue;
+      const double null = value_without(other, c);
+      const auto k = static_cast<Eigen::Index>(i);
+      if (c.positive)
+        out[k] = null > 0 ? std::log(null / c.start) : kNothing;
+      else
+        out[k] = (null - c.start) / c.scale;
+    }
+  }
+  return out;
+}
+
+std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& all,
+                                           const std::vector<PredictionWindow>& some) {
+  std::vector<PredictionWindow> out;
+  auto next = all.begin();
+  for (const PredictionWindow& one : some) {
+    next = std::find_if(next, all.end(),
+                        [&](const PredictionWindow& w) { return w.log == one.log && w.t == one.t; });
+    if (next == all.end()) break;
+    out.push_back(*next);
+  }
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,20 @@
+// A found model with one of its causes only, to tell how far that cause closes the gap.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "ident/flight/fit/prediction.h"
+#include "ident/gap/hypotheses/fitted_model.h"
+
+namespace ident {
+
+/// The constants `u` of a model with one of its causes only, all else as it is; wind with the drag through
+/// which it acts.
+Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, const Candidate& cause);
+
+/// Those of `all` that begin where one of `some` does, both in order.
+std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& all,
+                                           const std::vector<PredictionWindow>& some);
+
+}  // namespace ident

@@ -1,0 +1,26 @@
+// What each set of causes would gain, by the quadratic form over all of them.
+#pragma once
+
+#include "ident/gap/hypotheses/quadratic_form.h"
+
+namespace ident {
+
+/// What a set of causes gains over a model with the base constants alone.
+struct SetGain {
+  std::vector<int> members;  ///< candidates
+  double gain = 0.0;         ///< fall of the cost (twice the log likelihood)
+  double degrees = 0.0;      ///< directions freed
+  double price = 0.0;    ///< of the directions, in units of log likelihood: little where the data tell little
+  bool signs = true;     ///< as they must be
+  bool sizes = true;     ///< that physics allows
+  Eigen::VectorXd step;  ///< of all unknowns at the optimum of the quadratic form
+
+  bool physical() const { return signs && sizes; }
+};
+SetGain gain_of(const QuadraticForm& form, const ExtendedProblem& problem, const std::vector<int>& members);
+
+/// Standard deviation of one direction of a candidate, everything of the base free; coloured residuals
+/// counted. Of a parameter that of its difference from what is stated.
+double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, int candidate, int direction);
+
+}  // namespace ident

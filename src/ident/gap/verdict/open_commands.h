@@ -1,0 +1,24 @@
+// A diagnosis of logs whose controller went on between the commands that were logged.
+#pragma once
+
+#include "ident/gap/verdict/verdict.h"
+#include "ident/model/vehicle.h"
+#include "ident/result/result.h"
+
+namespace ident {
+
+/// The vehicle with as much left open of its motors, and of what acts about yaw, as commands that went on
+/// between rows `interval` s apart leave open: held to what a bench found, a fit bends all else for it. What
+/// is held, or of which nothing is known, stays so.
+Vehicle with_open_motors(const Vehicle& vehicle, double interval);
+
+/// The constants of a result by that vehicle beside what was stated, and these not as known.
+void doubt_open_motors(Result& result, const Vehicle& stated);
+
+/// What it found, but of motors, and of what acts about yaw, as was stated.
+Vehicle with_stated_motors(Vehicle found, const Vehicle& stated);
+
+/// A verdict by that vehicle: causes that what was not logged passes for are not named.
+Judged with_open_commands(Judged verdict, double interval);
+
+}  // namespace ident

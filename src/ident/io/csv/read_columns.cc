@@ -1,0 +1,163 @@
+// The loop over rows and chosen columns.
+#include "ident/io/csv/read_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "ident/core/error.h"
+#include "ident/core/nearest_word.h"
+#include "ident/io/csv/cell_numbers.h"
+
+namespace ident {
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+constexpr std::size_t kShownCell = 40;  // characters of a cell that a message shows
+
+std::string shown(std::string_view cell) {
+  return std::string(cell.substr(0, kShownCell)) + (cell.size() > kShownCell ? "..." : "");
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+std::string_view hint(std::string_view cell) {
+  return looks_like_number(cell) ? " here (a decimal comma, but the file's decimal mark is a point?)" : "";
+}
+
+class Loop {
+ public:
+  Loop(const std::string& path, CsvReader& csv, const std::vector<ChosenColumn>& columns,
+       const std::vector<ChosenText>& text)
+      : path_(path),
+        csv_(csv),
+        columns_(columns),
+        text_(text),
+        numbers_(csv.dialect()),
+        row_(columns.size()) {
+    table_.file = path;
+    for (const ChosenColumn& c : columns) table_.columns.push_back({c.name, csv.header()[c.index], {}});
+    for (const ChosenText& c : text) table_.text.push_back({c.name, {}});
+    for (Column& column : table_.columns) column.values.reserve(csv.about_rows());
+    table_.line.reserve(csv.about_rows());
+  }
+
+  NumberTable run() {
+    Cells cells;
+    while (csv_.next_row(cells))
+      if (!is_header_again(cells) && take_numbers(cells)) take_row(cells);
+    if (table_.rows() == 0) throw InputError(path_, csv_.header_line(), "", "has a header, but no rows");
+    finish();
+    return std::move(table_);
+  }
+
+ private:
+  const std::string& header(std::size_t column) const { return csv_.header()[columns_[column].index]; }
+
+  /// The header in the middle of the rows: files that were put together.
+  bool is_header_again(const Cells& cells) {
+    const bool again = std::ranges::all_of(columns_, [&](const ChosenColumn& c) {
+      return !cells[c.index].empty() && cells[c.index] == csv_.header()[c.index];
+    });
+    if (!again || columns_.empty()) return false;
+    if (header_again_++ == 0)
+      table_.warnings.push_back(
+          {"repeated_header", fmt::format("{}:{}: the header stands there again: files that were "
+                                          "put together?",
+                                          path_, csv_.line())});
+    return true;
+  }
+
+  /// Numbers of this row into `row_`; false where the row was cut off and dropped.
+  bool take_numbers(const Cells& cells) {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const std::string_view cell = cells[columns_[i].index];
+      const std::optional<double> number = columns_[i].is_time && cell.find(':') != std::string_view::npos
+                                               ? read_clock(cell)
+                                               : read_number(cell, i);
+      if (!number) {
+        refuse_or_drop(cell, i);
+        return false;
+      }
+      row_[i] = *number;
+    }
+    return true;
+  }
+
+  std::optional<double> read_number(std::string_view cell, std::size_t i) {
+    if (columns_[i].is_time && clock_seen_ && !cell.empty()) return std::nullopt;
+    const ChosenColumn& c = columns_[i];
+    const std::optional<double> number = numbers_.read(cell, header(i), csv_.line());
+    if (!number) return number;
+    return c.unit * (c.scale * *number + c.offset);
+  }
+
+  std::optional<double> read_clock(std::string_view cell) {
+    if (!clock_seen_ && table_.rows() > 0) return std::nullopt;
+    clock_seen_ = true;
+    return numbers_.read_clock(cell);
+  }
+
+  void refuse_or_drop(std::string_view cell, std::size_t i) {
+    const InputError error(path_, csv_.line(), header(i),
+                           fmt::format("'{}' is not a number{}", shown(cell), hint(cell)));
+    if (!csv_.at_unfinished_end()) throw error;
+    csv_.drop_unfinished();
+  }
+
+  void take_row(const Cells& cells) {
+    for (std::size_t k = 0; k < text_.size(); ++k) table_.text[k].values.push_back(word(cells, text_[k]));
+    for (std::size_t i = 0; i < columns_.size(); ++i) table_.columns[i].values.push_back(row_[i]);
+    table_.line.push_back(csv_.line());
+  }
+
+  std::string word(const Cells& cells, const ChosenText& column) const {
+    std::string text = lower(cells[column.index]);
+    if (!column.words.empty() && std::ranges::find(column.words, text) == column.words.end())
+      throw InputError(path_, csv_.line(), csv_.header()[column.index],
+                       fmt::format("'{}' is none of {}{}", shown(cells[column.index]),
+                                   fmt::join(column.words, ", "), did_you_mean(text, column.words)));
+    return text;
+  }
+
+  void finish() {
+    for (const Warning& warning : csv_.warnings()) table_.warnings.push_back(warning);
+    for (const Warning& warning : numbers_.warnings(path_)) table_.warnings.push_back(warning);
+    table_.notices = csv_.notices();
+    if (numbers_.used_decimal_comma() && csv_.dialect().decimal != DecimalMark::comma)
+      table_.notices.push_back(path_ + ": decimal comma");
+    if (!clock_seen_) return;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i].is_time) continue;
+      std::vector<double>& t = table_.columns[i].values;
+      const double first = t.front();
+      for (double& value : t) value -= first;
+    }
+    table_.notices.push_back(path_ + ": clock times, counted from the first row");
+  }
+
+  const std::string& path_;
+  CsvReader& csv_;
+  const std::vector<ChosenColumn>& columns_;
+  const std::vector<ChosenText>& text_;
+  CellNumbers numbers_;
+  NumberTable table_;
+  std::vector<double> row_;
+  long header_again_ = 0;
+  bool clock_seen_ = false;
+};
+
+}  // namespace
+
+NumberTable read_columns(const std::string& path, CsvReader& csv, const std::vector<ChosenColumn>& columns,
+                         const std::vector<ChosenText>& text) {
+  return Loop(path, csv, columns, text).run();
+}
+
+}  // namespace ident

@@ -1,0 +1,61 @@
+// A CSV of any dialect as a table in SI units.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/data/table.h"
+#include "ident/io/csv/units.h"
+
+namespace ident {
+
+/// A spelling of a signal in a header, with the unit that holds where the header names none.
+struct Alias {
+  std::string header;
+  std::string unit;
+};
+
+/// A signal that a file may hold. Headers are compared without case, blanks and underscores alike. Where
+/// several spellings stand in a file, the name itself wins, then the first alias.
+struct Signal {
+  std::string name;  ///< canonical, itself an accepted header, SI where the header names no unit
+  Dimension dimension = Dimension::number;
+  std::vector<Alias> aliases;
+  double largest =
+      0.0;  ///< magnitude (SI) that 9 of 10 samples keep below, else the unit is wrong; 0: no limit
+};
+
+/// A column of words.
+struct TextSignal {
+  std::string name;
+  std::vector<std::string> words;  ///< what may stand there
+};
+
+/// What a kind of file holds. `required`: for each entry at least one alternative, all of whose columns are
+/// there.
+struct TableSchema {
+  std::string kind;  ///< "thrust sweep", for messages
+  std::vector<Signal> signals;
+  std::vector<TextSignal> text;
+  std::vector<std::vector<std::vector<std::string>>> required;
+  bool time_ordered = false;  ///< `t` has to run forward: rows that go back are dropped with a warning
+  bool propeller_coefficients = false;  ///< files with RPM, CT and CP (UIUC) are understood
+};
+
+/// omega | omega_electrical | omega_optical, thrust; torque, delta, u, voltage, current, t.
+/// `omega` is the file's plain rotor speed (`omega`, `rpm`). Exports that name electrical and optical speed
+/// fill `omega_electrical` and `omega_optical` instead; which one to trust is for the estimator to find out.
+TableSchema thrust_schema();
+/// t, delta | u (pulse width in us), omega | omega_electrical | omega_optical; voltage.
+/// Time stamps may repeat (warning `time_repeated`), but do not go back.
+TableSchema motor_schema();
+/// axis (text: x, y, z, platform), period | time and oscillations, mass, radius, length; offset, amplitude,
+/// std.
+TableSchema pendulum_schema();
+
+/// Reads a table. Columns that the file does not have, or that are empty throughout, are absent from the
+/// result. Throws InputError (not readable, a required column missing, an implausible unit) or DataError (a
+/// required column without any usable value).
+NumberTable read_table(const std::string& path, const TableSchema& schema);
+
+}  // namespace ident
