@@ -81,9 +81,6 @@ class Theta {
 std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vector<double>& p,
                                          const std::vector<std::string>& also = {});
 
-/// Unit step of a constant: its typical size where its value may be zero.
-double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p);
-
 /// Distance from its null value beyond which an effect's constant is not physical on this vehicle; infinite
 /// for any other.
 double physical_limit(const FreeConstant& constant);
