@@ -28,6 +28,11 @@ double value(const S& x) {
     return x.v;
 }
 
+template <class S>
+S square(const S& x) {
+  return x * x;
+}
+
 /// Is a scalar's derivative zero in every direction?
 template <class S>
 bool is_constant(const S& x) {

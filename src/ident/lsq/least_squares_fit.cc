@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 #include "ident/lsq/least_squares.h"
 #include "ident/lsq/least_squares_minimise.h"
@@ -17,8 +18,6 @@ namespace {
 
 constexpr int kMostRounds = 12;
 constexpr int kFewestBeyond = 3;  // rows beyond the unknowns that outliers leave
-
-double square(double v) { return v * v; }
 
 /// Deviation of a row from what the other rows say, against the noise of the other rows.
 double deletion_t(double error, double leverage, double dof, bool is_out_already) {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/math.h"
+
 namespace ident {
 namespace {
 
 constexpr double kSmallestSigma = 1e-100;
-
-double square(double v) { return v * v; }
 
 }  // namespace
 

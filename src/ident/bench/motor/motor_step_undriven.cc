@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStanding = 0.02;  // of the greatest speed: slower than this no motor runs under control
 constexpr double kReached = 0.98;   // of the new level
-constexpr std::size_t kFewestRows = 12, kApproachRows = 10;
+constexpr std::size_t kFewestCoastingRows = 12, kApproachRows = 10;
 
 /// First row of a plateau at its level, coming from below; its end when it never gets there.
 std::size_t reached(const StepRecord& record, const Plateau& plateau) {
@@ -63,7 +63,7 @@ std::vector<StepRecord> without(const std::vector<StepRecord>& records,
   for (std::size_t k = 0; k < records.size(); ++k) {
     std::size_t begin = 0;
     const auto keep_to = [&](std::size_t end) {
-      if (end >= begin + kFewestRows) left.push_back(part(records[k], begin, end));
+      if (end >= begin + kFewestCoastingRows) left.push_back(part(records[k], begin, end));
     };
     for (const UndrivenStretch& stretch : stretches) {
       if (stretch.record != k) continue;

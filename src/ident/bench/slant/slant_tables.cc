@@ -10,13 +10,13 @@
 namespace ident {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kOneDegree = std::numbers::pi / 180.0;
 
 /// What is zero but for rounding is shown as zero.
 double clean(double v) { return std::fabs(v) < 1e-12 ? 0.0 : v; }
 
 Series at_optimum(double alpha, double y) {
-  return {.name = "optimum", .x = {alpha / kDegree}, .y = {y}, .style = Series::Style::points};
+  return {.name = "optimum", .x = {alpha / kOneDegree}, .y = {y}, .style = Series::Style::points};
 }
 
 Plot curve(std::string id, std::string title, std::string y_label, std::vector<Series> series) {
@@ -68,18 +68,18 @@ double mounting_trim(const Vehicle& vehicle, double arm, double alpha, double er
 std::vector<Plot> slant_plots(const Vehicle& vehicle, double arm, double alpha_opt) {
   Series authority{.name = "yaw input to yaw moment"}, leak{.name = "heave input to yaw moment"},
       sideways{.name = "roll input to Fx"}, lift{.name = "lift price"}, trim{.name = "yaw trim"};
-  const double last = std::max(15.0 * kDegree, 2.0 * alpha_opt);
+  const double last = std::max(15.0 * kOneDegree, 2.0 * alpha_opt);
   for (int i = 0; i <= 60; ++i) {
     const double alpha = last * i / 60.0;
     const SlantPrice price = slant_price(vehicle, arm, alpha);
-    for (Series* s : {&authority, &leak, &sideways, &lift}) s->x.push_back(alpha / kDegree);
+    for (Series* s : {&authority, &leak, &sideways, &lift}) s->x.push_back(alpha / kOneDegree);
     authority.y.push_back(price.yaw_authority);
     leak.y.push_back(price.yaw_leak);
     sideways.y.push_back(price.sideways);
     lift.y.push_back(price.lift);
-    const double error = (i - 30) / 10.0 * kDegree;
+    const double error = (i - 30) / 10.0 * kOneDegree;
     if (alpha_opt + error < 0.5 * alpha_opt) continue;
-    trim.x.push_back(error / kDegree);
+    trim.x.push_back(error / kOneDegree);
     trim.y.push_back(100.0 * mounting_trim(vehicle, arm, alpha_opt, error));
   }
   const SlantPrice best = slant_price(vehicle, arm, alpha_opt);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
@@ -12,8 +13,6 @@ namespace {
 
 constexpr double kBent = 1.0;  // % of full speed that the square takes away
 constexpr std::size_t kMostRows = 3000;
-
-double square(double v) { return v * v; }
 
 struct Pairs {
   std::vector<double> delta, Omega;

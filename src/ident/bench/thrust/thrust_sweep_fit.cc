@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "ident/bench/thrust/thrust_sweep_model.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
@@ -13,8 +14,6 @@ namespace {
 
 constexpr std::size_t kFewestForRestNoise = 5;
 constexpr double kRestDiffers = 1e-3;  // probability below which the noise at rest counts as another one
-
-double square(double v) { return v * v; }
 
 /// RMS over set-points, each with the mean of its residuals: what the law misses, not what the sensor
 /// scatters.

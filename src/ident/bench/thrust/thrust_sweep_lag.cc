@@ -12,7 +12,7 @@ namespace ident {
 namespace {
 
 constexpr std::array kLags = {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0};  // s
-constexpr std::size_t kFewestRows = 20;
+constexpr std::size_t kFewestLagRows = 20;
 constexpr std::size_t kMostStretches = 60;
 
 /// x' = (Omega^2 - x)/lag, exact for a speed that is held between rows.
@@ -50,7 +50,7 @@ LaggedPoints lagged_points(const SweepRows& rows, const std::vector<double>& y) 
   std::vector<std::size_t> with_value;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (std::isfinite(y[i]) && rows.Omega[i] > 0.0) with_value.push_back(i);
-  if (with_value.size() < kFewestRows) return found;
+  if (with_value.size() < kFewestLagRows) return found;
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> x;
   for (const double lag : kLags) {

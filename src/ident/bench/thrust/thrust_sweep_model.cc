@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
@@ -14,8 +15,6 @@ constexpr std::size_t kFewestRepeats = 6;  // readings beyond one a set-point
 constexpr std::size_t kFewestSetPoints = 3;
 constexpr double kNegligible = 0.005;       // share of a force's variance that comes from the speed's scatter
 constexpr std::size_t kFewestForNoise = 5;  // readings at rest that know their own noise
-
-double square(double v) { return v * v; }
 
 using Repeats = std::map<int, std::vector<const SweepPoint*>>;
 

@@ -9,17 +9,16 @@
 #include "ident/bench/thrust/thrust_sweep_lag.h"
 #include "ident/bench/thrust/thrust_sweep_tare.h"
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
 namespace {
 
-constexpr std::size_t kMostRows = 3000;  // beyond it rows of a set-point are averaged as in a log
+constexpr std::size_t kMostRawPoints = 3000;  // beyond it rows of a set-point are averaged as in a log
 constexpr std::size_t kFewestInADwell = 3;
 constexpr std::size_t kFewestPoints = 3;
 constexpr std::size_t kFewestDwells = 4;
-
-double square(double v) { return v * v; }
 
 /// Median of the slopes of y over Omega^2 between points that are far apart, and of what is left at zero.
 void rough_line(SweepChannel& channel) {
@@ -180,7 +179,7 @@ double SweepChannel::full_scale() const {
 SweepPoints sweep_points(const SweepRows& rows) {
   SweepPoints points;
   const bool repeated = static_cast<std::size_t>(rows.set_points) * kFewestInADwell < rows.size();
-  points.averaged = rows.is_log || (rows.size() > kMostRows && repeated);
+  points.averaged = rows.is_log || (rows.size() > kMostRawPoints && repeated);
   points.thrust = channel_of(rows, rows.thrust, "thrust", "N", points);
   points.torque = channel_of(rows, rows.torque, "torque", "N m", points);
   expect_thrust(points.thrust, rows.file);

@@ -8,14 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
 namespace {
 
 constexpr double kDiffer = 0.01;
-
-double square(double v) { return v * v; }
 
 struct Weighted {
   double mean = 0.0, weight = 0.0, spread = 0.0;

@@ -27,10 +27,10 @@ constexpr double kBeyondChance = 3.0, kGoodPart = 0.3;
 constexpr double kFarBeyondChance = 4.0, kMuchMore = 1.5, kLittle = 150.0;
 // What confirms them: as much expected, and so near to that.
 constexpr double kTold = 400.0, kNearIt = 0.1;
-constexpr double kMatters = 0.02;      // of the motors' lag
-constexpr double kSmooth = 0.18;       // roughness() of commands whose steps do not show
-constexpr double kSeldom = 1.0 / 110;  // s, where moments of inertia came out 3 to 10 % off
-constexpr double kHistory = 1.0;       // s of commands before an arc
+constexpr double kMatters = 0.02;            // of the motors' lag
+constexpr double kSmooth = 0.18;             // roughness() of commands whose steps do not show
+constexpr double kSlowCommands = 1.0 / 110;  // s, where moments of inertia came out 3 to 10 % off
+constexpr double kHistory = 1.0;             // s of commands before an arc
 constexpr int kSteps = 4, kMostSteps = 10;
 
 using Eigen::VectorXd;
@@ -131,7 +131,7 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
   const char* const kWhy = held.refuted() ? "commands went on between those that were logged"
                                           : "commands may have gone on between those that were logged";
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
-  const bool inertia = input_interval(record, logs) > kSeldom;
+  const bool inertia = input_interval(record, logs) > kSlowCommands;
   if (inertia) doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
   result.warn(

@@ -16,10 +16,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBeyondChance = 10.0;   // standard deviations
-constexpr double kAnotherVehicle = 0.2;  // of the value: flights of one vehicle scatter by less
-constexpr double kTold = 0.1;            // deviation of a constant that the other logs tell by themselves
-constexpr std::size_t kFew = 2;          // constants; a worn battery moves one
+constexpr double kLogsBeyondChance = 10.0;  // standard deviations
+constexpr double kAnotherVehicle = 0.2;     // of the value: flights of one vehicle scatter by less
+constexpr double kToldByLogs = 0.1;         // deviation of a constant that the other logs tell by themselves
+constexpr std::size_t kFew = 2;             // constants; a worn battery moves one
 
 // Thrust, which every vehicle has another of for its weight; an effect that the model lacks rarely moves it
 // along with others.
@@ -45,9 +45,9 @@ WithoutLog without(const FlightRecord& record, const Theta& theta, const FlightF
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
     const double std = std::sqrt(std::max(covariance(i, i), fit.covariance(i, i)));
-    if (!c.positive || !(std::abs(step[i]) > std::max(kBeyondChance * std, kAnotherVehicle))) continue;
+    if (!c.positive || !(std::abs(step[i]) > std::max(kLogsBeyondChance * std, kAnotherVehicle))) continue;
     out.moved.push_back(c.name);
-    if (!(std::sqrt(covariance(i, i)) < kTold)) continue;
+    if (!(std::sqrt(covariance(i, i)) < kToldByLogs)) continue;
     told += 1, thrust |= is_of_thrust(c.index);
   }
   out.beyond_doubt = told >= kFew && thrust;

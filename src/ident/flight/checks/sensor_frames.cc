@@ -21,10 +21,10 @@
 namespace ident {
 namespace {
 
-constexpr double kAgainst = -0.7;        ///< correlation at which an axis runs backwards
-constexpr double kOther = 0.75;          ///< correlation with another axis that makes it that axis
-constexpr double kOwn = 0.45;            ///< correlation with its own axis below which it is not its own
-constexpr std::size_t kFewWindows = 40;  ///< too few to judge
+constexpr double kAgainst = -0.7;             ///< correlation at which an axis runs backwards
+constexpr double kOther = 0.75;               ///< correlation with another axis that makes it that axis
+constexpr double kOwn = 0.45;                 ///< correlation with its own axis below which it is not its own
+constexpr std::size_t kFewFrameWindows = 40;  ///< too few to judge
 
 /// Two streams of an arc that should change alike.
 struct Streams {
@@ -58,7 +58,7 @@ Agreement agreement(const FlightRecord& record, double lag, const MakeStreams& m
     if (read) read(arc, windows, one);
     append(seen, one), streams.push_back({both.told[0], both.told[1], both.told[2]});
   }
-  if (seen[0].size() < kFewWindows) return {};
+  if (seen[0].size() < kFewFrameWindows) return {};
   std::array<Agreement, 5> at_shift;
   in_parallel(at_shift.size(), [&](std::size_t s) {
     const long shift = (static_cast<long>(s) - 2) * static_cast<long>(windows.margin) / 2;

@@ -33,7 +33,7 @@ constexpr double kFolded = 5.0, kMatters = 0.1;
 constexpr double kAlone = 10.0;  // nats by which all rotors explain more than one, and one more than another
 constexpr double kStandsOut = 3.0;  // times the amplitude of the usual rotor
 
-struct Sensor {
+struct ShakenSensor {
   std::array<std::vector<double>, 3> FlightLog::*member;
   int group;
   bool logged;
@@ -53,7 +53,7 @@ void thin_out(std::vector<ToneWindow>& windows) {
 
 // Tones of a sensor by [arc][row]: weighted sums, NaN where they pass for motion, and weights. Windows
 // overlap by half, each fading out to its ends.
-std::vector<std::vector<Eigen::Vector4d>> tones_by_row(const FlightRecord& record, const Sensor& sensor,
+std::vector<std::vector<Eigen::Vector4d>> tones_by_row(const FlightRecord& record, const ShakenSensor& sensor,
                                                        const ToneSizes& sizes) {
   std::vector<std::vector<Eigen::Vector4d>> sums;
   for (const FlightArc& arc : record.arcs) sums.emplace_back(arc.rows(), Eigen::Vector4d::Zero());
@@ -79,7 +79,7 @@ std::vector<std::vector<Eigen::Vector4d>> tones_by_row(const FlightRecord& recor
 }
 
 // Takes the tones out of a sensor of the logs, and gives the share of its samples that then count as none.
-double take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const Sensor& sensor,
+double take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const ShakenSensor& sensor,
                 const ToneSizes& sizes) {
   const auto tones = tones_by_row(record, sensor, sizes);
   double samples = 0, left_out = 0;
@@ -103,7 +103,8 @@ double take_out(const FlightRecord& record, std::vector<FlightLog>& logs, const 
 
 // Looks for tones in both sensors; gives how much faster rotors turn than simulated, NaN where there are
 // none.
-double find_tones(const FlightRecord& record, const TurningRotors& rotors, std::array<Sensor, 2>& sensors) {
+double find_tones(const FlightRecord& record, const TurningRotors& rotors,
+                  std::array<ShakenSensor, 2>& sensors) {
   in_parallel(sensors.size(), [&](std::size_t k) {
     if (!sensors[k].logged) return;
     sensors[k].windows =
@@ -114,7 +115,7 @@ double find_tones(const FlightRecord& record, const TurningRotors& rotors, std::
       rotors.measured() ? 1.0 : likeliest_scale(rotors, {&sensors[0].windows, &sensors[1].windows});
   if (std::isnan(scale)) return kNaN;
   bool found = false;
-  for (Sensor& sensor : sensors) {
+  for (ShakenSensor& sensor : sensors) {
     TonesFound tones = tones_that_stand_out(rotors, sensor.windows,
                                             commanded_in(record, sensor.group, sensor.windows), scale);
     found |= !tones.beyond_doubt.empty(), sensor.orders = std::move(tones.likely);
@@ -125,13 +126,13 @@ double find_tones(const FlightRecord& record, const TurningRotors& rotors, std::
 
 // Takes the tones out of the logs.
 Vibration take_out_all(const FlightRecord& record, std::vector<FlightLog>& logs, const TurningRotors& rotors,
-                       const std::array<Sensor, 2>& sensors, double scale) {
+                       const std::array<ShakenSensor, 2>& sensors, double scale) {
   Vibration out;
   out.speeds = scale;
   std::vector<double> alone(static_cast<std::size_t>(rotors.count()), 0.0);
   out.of_rotor = alone;
   double together = 0;
-  for (const Sensor& sensor : sensors) {
+  for (const ShakenSensor& sensor : sensors) {
     if (sensor.orders.empty()) continue;
     out.passed_on |= sensor.passed_on;
     const ToneSizes sizes(rotors, sensor.windows, sensor.orders, scale);
@@ -201,11 +202,11 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   vibration = {};
   const Signals& s = record.signals;
   if (!s.commands && !s.rotor_speeds) return {};
-  std::array<Sensor, 2> sensors = {
+  std::array<ShakenSensor, 2> sensors = {
       {{&FlightLog::w_B, kGyro, s.rates, {}, {}, false}, {&FlightLog::f_B, kForce, s.force, {}, {}, false}}};
   std::array<bool, 6> uneven{};
   in_parallel(uneven.size(), [&](std::size_t k) {
-    const Sensor& sensor = sensors[k / 3];
+    const ShakenSensor& sensor = sensors[k / 3];
     uneven[k] = sensor.logged && has_uneven_spectrum(record, sensor.group + static_cast<int>(k % 3));
   });
   if (std::ranges::none_of(uneven, std::identity())) return {};

@@ -20,7 +20,7 @@
 namespace ident {
 namespace {
 
-constexpr std::size_t kFewest = 50, kEnough = 3000;  // samples to judge noise by
+constexpr std::size_t kFewestVoltages = 50, kEnough = 3000;  // samples to judge noise by
 constexpr double kFast = 10.0;  // variances of noise, that the level changes by from sample to sample: as
                                 // good as no noise
 constexpr double kSure = 3.0;   // deviations of a resistance
@@ -156,7 +156,7 @@ std::vector<double> quiet_voltage(const FlightLog& log) {
   auto [rows, apart] = new_samples(log.t, std::span(&log.vbat, 1));
   std::erase_if(rows, [&](std::size_t row) { return !(log.vbat[row] > 0); });
   rows = without_glitches(log, rows);
-  if (rows.size() < kFewest || !(apart > 0)) return log.vbat;
+  if (rows.size() < kFewestVoltages || !(apart > 0)) return log.vbat;
   const std::size_t stride = 1 + rows.size() / kEnough;
   const std::vector<Track> commands = commands_at_rows(log);
   double least = INFINITY, lag = 0, walk = kFastest, R = 0;

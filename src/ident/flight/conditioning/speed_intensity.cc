@@ -24,7 +24,7 @@ constexpr float kLeast = 1e-6F;
 constexpr double kPower = 0.25;
 constexpr float kNever = 1e-20F;  // keeps a level in reach
 
-struct Level {
+struct SpeedLevel {
   double log_q;     // NaN where the samples leave no noise
   double variance;  // of the noise, (rad/s)^2
 };
@@ -44,7 +44,7 @@ double surprise(const SpeedSamples& samples, double q, double* variance) {
 }
 
 // The most likely constant one.
-Level constant_level(const SpeedSamples& samples, double cube) {
+SpeedLevel constant_level(const SpeedSamples& samples, double cube) {
   double variance = kNaN;
   const auto at = [&](double log_q) { return surprise(samples, std::exp(log_q) / cube, &variance); };
   constexpr double kStep = 2.5, kGolden = 0.381966;

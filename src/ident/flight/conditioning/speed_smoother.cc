@@ -12,7 +12,7 @@
 namespace ident {
 namespace {
 
-constexpr std::size_t kLeast = 50;  // samples that tell noise from motion
+constexpr std::size_t kLeastSpeeds = 50;  // samples that tell noise from motion
 // Times the likely intensities: a motor does not walk at random.
 constexpr double kRougher = 3.0;
 constexpr std::size_t kMostFalse = 2;
@@ -84,7 +84,7 @@ SmoothedSpeed smoothed_speed(const std::vector<double>& t, const std::vector<dou
     end = t[i];
   }
   const std::vector<double> as_it_is = interpolated(t, speed);
-  if (count < kLeast) return {as_it_is, as_it_is, {}, {}};
+  if (count < kLeastSpeeds) return {as_it_is, as_it_is, {}, {}};
   samples.distance = (end - first) / static_cast<double>(count - 1);
   SpeedIntensities found = likely_intensities(samples);
   if (found.q.empty()) return {as_it_is, as_it_is, {}, {}};

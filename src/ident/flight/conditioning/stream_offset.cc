@@ -8,10 +8,10 @@
 namespace ident {
 namespace {
 
-constexpr int kParts = 8;             ///< of the flight, for the spread
-constexpr std::size_t kFewest = 200;  ///< windows to judge
-constexpr double kAlike = 0.8;        ///< correlation of an axis that says anything
-constexpr double kBeyondDoubt = 5.0;  ///< standard deviations
+constexpr int kParts = 8;                    ///< of the flight, for the spread
+constexpr std::size_t kFewestShifted = 200;  ///< windows to judge
+constexpr double kAlike = 0.8;               ///< correlation of an axis that says anything
+constexpr double kOffsetBeyondDoubt = 5.0;   ///< standard deviations
 constexpr double kOfAnInterval = 0.1;
 constexpr long kSteps = 15;  ///< to either side
 
@@ -94,7 +94,7 @@ double likeliest(const std::vector<std::vector<double>>& shifts) {
 }  // namespace
 
 bool StreamOffset::matters(double interval, double shortest) const {
-  return std::abs(seconds) > kBeyondDoubt * std &&
+  return std::abs(seconds) > kOffsetBeyondDoubt * std &&
          std::abs(seconds) > std::max(shortest, kOfAnInterval * interval);
 }
 
@@ -131,7 +131,7 @@ StreamOffset best_of(const std::vector<StreamSides>& arcs, const ChangeWindows& 
   const std::vector<std::vector<Vector3d>> turned_of = changes_seen(arcs, windows);
   std::size_t count = 0, before = 0;
   for (const auto& turned : turned_of) count += turned.size();
-  if (count < kFewest) return {kNaN, kNaN};
+  if (count < kFewestShifted) return {kNaN, kNaN};
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     const std::vector<Vector3d>& turned = turned_of[a];
     const auto part_of = [&](std::size_t j) { return (before + j) * kParts / count; };

@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kRounds = 20;
-constexpr double kEnough = 0.5;                // nats by which a round has to be better than the one before
-constexpr double kFirst = 0.1, kLeast = 1e-9;  // variances to start from, and that stand for none
+constexpr double kEnoughWindows = 0.5;  // nats by which a round has to be better than the one before
+constexpr double kFirst = 0.1, kLeastAmplitude = 1e-9;  // variances to start from, and that stand for none
 
 }  // namespace
 
@@ -102,12 +102,13 @@ ToneSizes::Found ToneSizes::found_from(const ToldWindows& windows) const {
       for (Index k = 0; k < told.rows(); ++k)
         told(k, axis) += of.G(2 * k, 2 * k) + of.G(2 * k + 1, 2 * k + 1);
     }
-  const MatrixXd most = (2 * told.cwiseMax(kLeast).cwiseInverse() * square.asDiagonal()).cwiseMax(kLeast);
+  const MatrixXd most =
+      (2 * told.cwiseMax(kLeastAmplitude).cwiseInverse() * square.asDiagonal()).cwiseMax(kLeastAmplitude);
   found.variance = MatrixXd::Constant(told.rows(), 3, kFirst);
   for (int round = 0; round < kRounds; ++round) {
     const double before = found.log_likelihood;
     found = updated(windows, found, most);
-    if (round > 1 && std::abs(found.log_likelihood - before) < kEnough) break;
+    if (round > 1 && std::abs(found.log_likelihood - before) < kEnoughWindows) break;
   }
   return found;
 }
@@ -141,10 +142,11 @@ ToneSizes::Found ToneSizes::updated(const ToldWindows& windows, const Found& fro
                                  told.square + told.samples * std::log(from.noise[axis]));
     }
   });
-  Found out{MatrixXd(square.rows(), 3), (rest.array() / free.array().max(1.0)).max(kLeast), likelihood.sum()};
+  Found out{MatrixXd(square.rows(), 3), (rest.array() / free.array().max(1.0)).max(kLeastAmplitude),
+            likelihood.sum()};
   for (Index axis = 0; axis < 3; ++axis)
-    out.variance.col(axis) = (square.col(axis).array() / known.col(axis).array().max(kLeast))
-                                 .max(kLeast)
+    out.variance.col(axis) = (square.col(axis).array() / known.col(axis).array().max(kLeastAmplitude))
+                                 .max(kLeastAmplitude)
                                  .min(most.col(axis).array());
   return out;
 }

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kOrders = 3;            // the balance of a propeller, and two or three blades that pass
-constexpr double kBeyondDoubt = 6.0;  // standard deviations
+constexpr int kOrders = 3;                // the balance of a propeller, and two or three blades that pass
+constexpr double kToneBeyondDoubt = 6.0;  // standard deviations
 constexpr double kLikely = 3.5;
 // Times the power that commands make there, which may be that of motors of which nothing is known. A tone
 // that went through a controller to the motors comes back with a hundredth of its size and less.
@@ -95,7 +95,7 @@ TonesFound tones_that_stand_out(const TurningRotors& rotors, const ToneWindows& 
     const double more = seen.more - kCommanded * told.there;
     const int order = static_cast<int>(k) + 1;
     if (more > kLikely * seen.chance) out.likely.push_back(order);
-    if (!(more > kBeyondDoubt * seen.chance)) continue;
+    if (!(more > kToneBeyondDoubt * seen.chance)) continue;
     out.beyond_doubt.push_back(order);
     out.passed_on |= told.more > std::max(kLikely * told.chance, kPassedOn * told.there);
   }

@@ -14,13 +14,13 @@ namespace {
 
 using Eigen::Array3d;
 
-constexpr double kShortest = 1.0, kLongest = 5.0;  // blocks, s
-constexpr double kBlocks = 8.0;                    // of a log that is too short for such long ones
+constexpr double kShortest = 1.0, kLongestBlock = 5.0;  // blocks, s
+constexpr double kBlocks = 8.0;                         // of a log that is too short for such long ones
 constexpr std::size_t kFewBlocks = 6, kFewSamples = 4;
-constexpr double kBeyondDoubt = 5.0;  // standard deviations of the mean
+constexpr double kBiasBeyondDoubt = 5.0;  // standard deviations of the mean
 
 // Slope of a line through values over time.
-struct Line {
+struct BlockLine {
   double n = 0, t = 0, tt = 0;
   Array3d y = Array3d::Zero(), ty = Array3d::Zero();
 
@@ -32,7 +32,7 @@ struct Line {
 void add_blocks(const FlightArc& arc, double seconds, std::vector<Array3d>& blocks) {
   Array3d path = Array3d::Zero(), last = Array3d::Constant(kNaN);
   double t_last = 0, begin = kNaN;
-  Line line;
+  BlockLine line;
   const auto close = [&](double t) {
     if (line.n >= kFewSamples && t - begin > 0.8 * seconds) blocks.push_back(-line.slope());
     line = {}, begin = t;
@@ -62,13 +62,13 @@ void take_out_velocity_bias(FlightRecord& record) {
       if (arc.log == log) duration += arc.t.back() - arc.t.front();
     std::vector<Array3d> blocks;
     for (const FlightArc& arc : record.arcs)
-      if (arc.log == log) add_blocks(arc, std::clamp(duration / kBlocks, kShortest, kLongest), blocks);
+      if (arc.log == log) add_blocks(arc, std::clamp(duration / kBlocks, kShortest, kLongestBlock), blocks);
     if (blocks.size() < kFewBlocks) continue;
     const double n = static_cast<double>(blocks.size());
     Array3d mean = Array3d::Zero(), square = Array3d::Zero();
     for (const Array3d& one : blocks) mean += one / n;
     for (const Array3d& one : blocks) square += (one - mean).square() / (n - 1);
-    const Array3d doubt = kBeyondDoubt * (square / n).sqrt();
+    const Array3d doubt = kBiasBeyondDoubt * (square / n).sqrt();
     if (!(mean.abs() > doubt).any()) continue;
     const Array3d bias = (mean.abs() > doubt).select(mean, 0.0);
     for (FlightArc& arc : record.arcs)

@@ -13,7 +13,7 @@ constexpr double kHuber = 4.0;  // standard deviations beyond which a residual c
 // Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
 constexpr double kNearly = 0.3;
 // Change of a noise level at which it is known, and roughly known; rounds for the air's in each round.
-constexpr double kKnown = 0.03, kRoughly = 0.1;
+constexpr double kKnownWell = 0.03, kRoughly = 0.1;
 constexpr int kManyRetuned = 9, kRetuned = 6, kFewRetuned = 3;
 // Steps before noise is estimated: what the model misses there would pass for noise.
 constexpr int kFirstSteps = 4;
@@ -141,7 +141,7 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     }
     tell(static_cast<double>(round + 1) / options_.noise_rounds);
     const bool known =
-        change < (options_.rough_noise ? kRoughly : kKnown) || (round >= 5 && change < kNearly);
+        change < (options_.rough_noise ? kRoughly : kKnownWell) || (round >= 5 && change < kNearly);
     bool turned = false;
     if (options_.choose_axes && !axes_chosen_ && !axes_asked_ &&
         (known || (change < kNearly && newton_step(*smoother_, u_).fall < kNear * theta_.size()))) {

@@ -9,8 +9,8 @@
 namespace ident {
 namespace {
 
-constexpr double kNoGust = 0.01;       // m/s^2: weaker ones move no constant, whatever their axes
-constexpr double kBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
+constexpr double kNoGust = 0.01;            // m/s^2: weaker ones move no constant, whatever their axes
+constexpr double kNoiseBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
 constexpr int kRetune = 3;
 // Shortest chunks, s; in a search, where models that miss much ask for the shortest, less would cost time
 // only. The longest, and how much longer those of a search are.
@@ -95,11 +95,11 @@ bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
   NoiseModel body = world;
   body.axes = GustAxes::body;
   const double in_body = surprise_of(body);
-  if (in_body < in_world - kBeyondDoubt) return true;
+  if (in_body < in_world - kNoiseBeyondDoubt) return true;
   smoother.set_noise(world);
   smoother.set_states(states);
   smoother.settle(u, 1);
-  return in_world < in_body - kBeyondDoubt;
+  return in_world < in_body - kNoiseBeyondDoubt;
 }
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {

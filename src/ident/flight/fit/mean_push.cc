@@ -8,9 +8,9 @@ namespace ident {
 namespace {
 
 // Of the weight: what matters, and what no gust does for a whole flight, however strong they seem.
-constexpr double kMatters = 0.05, kNoGust = 0.15;
+constexpr double kMatters = 0.05, kNoLastingGust = 0.15;
 constexpr double kBeyondChance = 2.5, kBeyondChanceInOne = 3.5;  // of several logs one stands out by chance
-constexpr double kLong = 30.0;                                   // s: a whole flight, of 20 gusts
+constexpr double kWholeFlight = 30.0;                            // s: a whole flight, of 20 gusts
 // What stays for long is no gust, however slow the process is that was made of it.
 constexpr double kSlowestGust = 1.5;  // s
 
@@ -18,7 +18,8 @@ constexpr double kSlowestGust = 1.5;  // s
 
 double SteadyPush::limit(double gravity) const {
   const double chance = (log ? kBeyondChanceInOne : kBeyondChance) * std;
-  return std::max(kMatters * gravity, seconds < kLong ? chance : std::min(chance, kNoGust * gravity));
+  return std::max(kMatters * gravity,
+                  seconds < kWholeFlight ? chance : std::min(chance, kNoLastingGust * gravity));
 }
 
 SteadyPush steady_push(const FlightRecord& record, const FlightFit& fit) {

@@ -14,7 +14,7 @@ namespace ident {
 namespace {
 
 // Below so many standard deviations it is chance, in a body that is nearly flat.
-constexpr double kByChance = 2.0;
+constexpr double kInertiaByChance = 2.0;
 
 // A second moment of mass below this share of their sum is none.
 constexpr double kFlat = 1e-9;
@@ -69,14 +69,15 @@ void warn_of_inertia(Result& result, const Theta& theta, const FlightFit& fit) {
     if (!(std > 0)) continue;  // as stated, and nobody asked the flight
     const std::size_t a = (c + 1) % 3, b = (c + 2) % 3;
     const double sum = p[static_cast<std::size_t>(moments[a])] + p[static_cast<std::size_t>(moments[b])];
-    result.warn("triangle_inequality",
-                fmt::format("{} = {} exceeds {} + {} = {} kg m^2, which no body does, by {} standard "
-                            "deviations: {}",
-                            names[c], format_number(p[static_cast<std::size_t>(moments[c])]), names[a],
-                            names[b], format_number(sum), format_number(by, 2),
-                            by < kByChance ? "by chance, if the vehicle is nearly flat"
-                                           : "another constant is wrong (arm, kQ, mass), or an effect is "
-                                             "missing"));
+    result.warn(
+        "triangle_inequality",
+        fmt::format("{} = {} exceeds {} + {} = {} kg m^2, which no body does, by {} standard "
+                    "deviations: {}",
+                    names[c], format_number(p[static_cast<std::size_t>(moments[c])]), names[a], names[b],
+                    format_number(sum), format_number(by, 2),
+                    by < kInertiaByChance ? "by chance, if the vehicle is nearly flat"
+                                          : "another constant is wrong (arm, kQ, mass), or an effect is "
+                                            "missing"));
   }
 }
 

@@ -4,7 +4,8 @@
 namespace ident {
 namespace {
 
-constexpr double kHeld = 1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
+constexpr double kHeldUnstated =
+    1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
 // Effects that are the same.
 const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
 
@@ -36,7 +37,7 @@ void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& con
     const std::vector<FreeConstant> all = free_constants(vehicle, p, {name});
     FreeConstant held = *std::ranges::find(all, name, &FreeConstant::name);
     held.watched = true;
-    held.prior_value = held.start, held.prior_std = kHeld * held.scale;
+    held.prior_value = held.start, held.prior_std = kHeldUnstated * held.scale;
     constants.push_back(held);
   }
 }

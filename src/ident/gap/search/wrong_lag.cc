@@ -14,7 +14,7 @@ constexpr double kAsStated = 3.0;
 constexpr double kSeen = 100.0;     // a cause that gains less is no reason to hold the lag
 constexpr double kNoPhysics = 3.0;  // a factor that nothing missing in a model makes of a lag
 constexpr double kSlowest = 2.0;    // rad/s: below it the commands no longer move the model's rotors
-constexpr int kMostSteps = 20;      // of its fit: a right one takes five to twelve
+constexpr int kMostLagSteps = 20;   // of its fit: a right one takes five to twelve
 constexpr double kEnough = 20.0, kStretch = 4.0;  // s of flight in which a wrong lag shows, in stretches
 constexpr std::array kFactors = {1.0 / 27, 1.0 / 9, 1.0 / 3, 1.0 / 1.7, 1.7, 3.0, 9.0};
 
@@ -85,7 +85,7 @@ std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<
   FlightFitOptions again = options;
   again.noise = form.noise, again.estimate_noise = false;
   again.chunk_seconds = at_hand.fit.chunk_seconds;
-  again.most_steps = kMostSteps;
+  again.most_steps = kMostLagSteps;
   std::vector<FreeConstant> constants = at_hand.constants;
   for (FreeConstant& c : constants) c.start = p[static_cast<std::size_t>(c.index)];
   FreeConstant& omega_m = constants[static_cast<std::size_t>(cause->parameter)];

@@ -20,8 +20,8 @@ constexpr double kPiece = 0.04;  // s: motors are fast
 constexpr double kPart = 4.0;    // s
 constexpr int kRounds = 30;  // until states are at their best: many where no rates or attitude were logged
 constexpr Index kMotorFeatures = 5;
-constexpr int kLeast = 1000;    // samples of a sensor that can be judged
-constexpr double kGross = 6.0;  // residuals of a sensor count up to this
+constexpr int kLeastSamples = 1000;  // samples of a sensor that can be judged
+constexpr double kGross = 6.0;       // residuals of a sensor count up to this
 
 double at(const std::vector<double>& column, std::size_t i) { return column.empty() ? 1.0 : column[i]; }
 
@@ -134,7 +134,7 @@ void add_sensors(Rival& rival, const FlightRecord& record, const FlightSmoother&
       const Sum whole = sum_of(residuals[k], channel, 0, residuals[k].size());
       of.sum[static_cast<Index>(k)] = whole.sum, of.count[static_cast<Index>(k)] = whole.count;
     }
-    if (of.count.sum() >= kLeast) gains[channel] = held_out_gain(of, with_constant, parts);
+    if (of.count.sum() >= kLeastSamples) gains[channel] = held_out_gain(of, with_constant, parts);
   });
   for (std::size_t channel = 0; channel < gains.size(); ++channel)
     if (std::isfinite(gains[channel]))
@@ -172,7 +172,7 @@ void add_motors(Rival& rival, const FlightRecord& record, const FlightSmoother& 
   const auto pieces = static_cast<Index>(parts.size());
   const SensorResiduals of{Eigen::Map<VectorXd>(sum.data(), pieces),
                            Eigen::Map<VectorXd>(count.data(), pieces)};
-  if (of.count.sum() < kLeast) return;
+  if (of.count.sum() < kLeastSamples) return;
   MatrixXd X = Eigen::Map<MatrixXd>(features.data(), kMotorFeatures, pieces).transpose();
   standardise(X);
   X.conservativeResize(Eigen::NoChange, kMotorFeatures + 1);

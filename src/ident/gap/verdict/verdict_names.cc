@@ -13,7 +13,7 @@ namespace {
 
 // A cause is identified with this probability, and one that stands in its place is told of from that on.
 constexpr double kSure = 0.9;
-constexpr double kTold = 0.05;
+constexpr double kToldFar = 0.05;
 
 // A thrust curve that bends by less than thrust stands scatter, and that the flight hardly shows.
 bool bends_next_to_nothing(const SearchResult& search, const std::vector<Parameter>& fitted) {
@@ -42,7 +42,7 @@ std::vector<std::string> in_their_place(const SearchResult& search, const std::v
     const std::set<std::string> names(listed.begin(), listed.end());
     if (std::ranges::includes(names, named)) {
       own += set.probability;
-    } else if (set.probability > kTold) {
+    } else if (set.probability > kToldFar) {
       const bool parts = std::ranges::all_of(names, held);  // drag alone, where it was wind with drag
       for (const std::string& n : names)
         if ((parts ? !named.contains(n) : !held(n)) && std::ranges::find(others, n) == others.end())
@@ -79,7 +79,7 @@ std::vector<std::string> probable_names(const SearchResult& search, const std::v
 std::vector<std::string> likely_names(const SearchResult& search) {
   std::vector<std::string> out;
   for (const Candidate& c : search.problem.candidates)
-    if (search.probability_of(c.name) > kTold && std::ranges::find(out, c.name) == out.end())
+    if (search.probability_of(c.name) > kToldFar && std::ranges::find(out, c.name) == out.end())
       out.push_back(c.name);
   std::ranges::stable_sort(out, std::greater<>(), [&](const auto& n) { return search.probability_of(n); });
   return out;

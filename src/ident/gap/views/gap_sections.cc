@@ -20,18 +20,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMuch = 0.4;  // share of a quarter of the flight that is worth a sentence
 
-double number(const Json& j) { return j.is_number() ? j.get<double>() : kNaN; }
+double number_of(const Json& j) { return j.is_number() ? j.get<double>() : kNaN; }
 
 std::string percent(const Json& share) {
-  return std::isfinite(number(share)) ? fmt::format("{:.0f}", 100 * number(share)) : "–";
+  return std::isfinite(number_of(share)) ? fmt::format("{:.0f}", 100 * number_of(share)) : "–";
 }
 
 std::vector<std::string> words(const Json& list) { return list.get<std::vector<std::string>>(); }
 
-std::string number_text(const Json& j, int digits = 3) { return format_number(number(j), digits); }
+std::string number_text(const Json& j, int digits = 3) { return format_number(number_of(j), digits); }
 
 std::string value_text(const Json& parameter) {
-  return format_with_uncertainty(number(parameter["value"]), number(parameter["std"])) +
+  return format_with_uncertainty(number_of(parameter["value"]), number_of(parameter["std"])) +
          (parameter["unit"] == "-" ? "" : " " + parameter["unit"].get<std::string>());
 }
 
@@ -43,7 +43,7 @@ std::vector<std::string> causes_of(const Json& found) {
 }
 
 std::string how_far(const Json& gap, const std::string& causes) {
-  if (!std::isfinite(number(gap["before"])))
+  if (!std::isfinite(number_of(gap["before"])))
     return "No held-out flight could be predicted half a second ahead.";
   const std::string with = causes.empty() ? "its constants refitted" : causes + " in it";
   std::string text = fmt::format(
@@ -51,13 +51,13 @@ std::string how_far(const Json& gap, const std::string& causes) {
       "perfect model would miss by {}, because sensors are noisy and nobody knows exactly how a window "
       "begins.",
       number_text(gap["before"]), with, number_text(gap["after"]), number_text(gap["noise_floor"]));
-  if (!std::isfinite(number(gap["closed"]))) return text + " At this horizon there was no gap to close.";
+  if (!std::isfinite(number_of(gap["closed"]))) return text + " At this horizon there was no gap to close.";
   return text + fmt::format(" That closes {} % of the gap (95 %: {} to {} %).", percent(gap["closed"]),
                             percent(gap["closed_ci95"][0]), percent(gap["closed_ci95"][1]));
 }
 
 // Whether held-out flight was long enough for that horizon.
-bool predicted(const Json& horizon) { return std::isfinite(number(horizon["before"])); }
+bool predicted(const Json& horizon) { return std::isfinite(number_of(horizon["before"])); }
 
 Table horizon_table(const Json& gap) {
   Table table{.title = "By how far ahead",
@@ -106,8 +106,8 @@ Table by_channel_table(const Json& found) {
   if (!found.contains("by_channel")) return table;
   for (const auto& [cause, parts] : found["by_channel"].items())
     for (const auto& [part, asked] : parts.items()) {
-      if (!(number(asked["weight"]) >= kHasASay)) continue;
-      const double change = 100 * number(asked["change"]), std = 100 * number(asked["std"]);
+      if (!(number_of(asked["weight"]) >= kHasASay)) continue;
+      const double change = 100 * number_of(asked["change"]), std = 100 * number_of(asked["std"]);
       const int decimals = std > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(std))), 0, 3) : 0;
       table.rows.push_back({cause, part, fmt::format("{:+.{}f}", change, decimals),
                             fmt::format("{:.{}f}", std, decimals), percent(asked["weight"])});
@@ -136,16 +136,16 @@ Section which_section(const Json& found) {
 
 std::string where_text(const Json& where) {
   const Json& channels = where["channels"];
-  if (channels.empty() || !(number(channels[0]["share"]) > 0)) return "No channel stands above its noise.";
+  if (channels.empty() || !(number_of(channels[0]["share"]) > 0)) return "No channel stands above its noise.";
   std::string text = fmt::format("{} % of it is in {}.", percent(channels[0]["share"]),
                                  channels[0]["name"].get<std::string>());
-  if (const Json& regimes = where["regimes"]; !regimes.empty() && number(regimes[0]["share"]) > kMuch) {
+  if (const Json& regimes = where["regimes"]; !regimes.empty() && number_of(regimes[0]["share"]) > kMuch) {
     const std::string variable = regimes[0]["variable"], unit = regime_unit(variable);
     text += fmt::format(" {} % of it lies in the quarter of the flight with {} from {} to {}{}.",
                         percent(regimes[0]["share"]), variable, number_text(regimes[0]["bin"][0]),
                         number_text(regimes[0]["bin"][1]), unit == "-" ? "" : " " + unit);
   }
-  const auto share = [](const Json& band) { return number(band["share"]); };
+  const auto share = [](const Json& band) { return number_of(band["share"]); };
   if (const Json& bands = where["bands"]; !bands.empty()) {
     const Json& top = *std::ranges::max_element(bands, {}, share);
     if (share(top) > 0) text += fmt::format(" {} % of it is at {}.", percent(top["share"]), band_name(top));
@@ -192,7 +192,7 @@ Section where_section(const Json& found, const ResidualWrench& before, const Res
                   .tables = {channel_table(where), regime_table(where), time_table(where)},
                   .plots = {channel_plot(where)}};
   // Without a gap there is nothing to have shares of.
-  if (std::ranges::any_of(where["bands"], [](const Json& band) { return number(band["share"]) > 0; }))
+  if (std::ranges::any_of(where["bands"], [](const Json& band) { return number_of(band["share"]) > 0; }))
     section.plots.push_back(band_plot(where));
   if (!where["channels"].empty() && !where["regimes"].empty()) {
     const auto top = std::ranges::find(before.names, where["channels"][0]["name"].get<std::string>());
@@ -216,8 +216,8 @@ Section tried_section(const Json& found) {
       limits += (limits.empty() ? "" : ", ") + name.substr(name.find('.') + 1) + " " + number_text(limit, 2);
       if (unit != "-") limits += " " + unit;
     }
-    table.rows.push_back({c["effect"], fmt::format("{:.3f}", number(c["probability"])),
-                          c.contains("evidence") ? fmt::format("{:.1f}", number(c["evidence"])) : "–",
+    table.rows.push_back({c["effect"], fmt::format("{:.3f}", number_of(c["probability"])),
+                          c.contains("evidence") ? fmt::format("{:.1f}", number_of(c["evidence"])) : "–",
                           limits});
   }
   std::string text =
