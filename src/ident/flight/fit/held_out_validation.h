@@ -1,4 +1,4 @@
-// How refined constants predict flight that was not fitted, beside those that were stated.
+// Prediction of held-out flight by the refined constants and by those stated.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,8 +16,8 @@ struct Validation {
   std::string worse;                ///< said where the stated constants predict better; else empty
 };
 
-/// Errors over 0.1, 0.5 and 1 s of `held_out`, in noise standard deviations, of the constants at `before` and
-/// of those of the fit; with pictures of the channels that gain most if `shown` asks for them.
+/// Errors over 0.1, 0.5 and 1 s of `held_out`, in standard deviations of the noise, by the constants at
+/// `before` and by those of the fit; with pictures of the channels that gain most if `shown` asks for them.
 Validation validate_refined(const FlightRecord& held_out, const Theta& theta, const Eigen::VectorXd& before,
                             const FlightFit& fit, Shown shown);
 
