@@ -39,7 +39,7 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
 }
 
 // What is left of a fall when no evaluation is worth it is taken all the same.
-TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
+TEST(FlightFit, TheLastStepIsTakenWithoutAnEvaluation) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
@@ -60,7 +60,7 @@ TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
 }
 
 // A filter's position is so smooth that its differences show next to no noise.
-TEST(FlightFit, AChannelThatSeemsToHaveNoNoiseDoesNotSpoilTheOthers) {
+TEST(FlightFit, AChannelWithoutNoiseDoesNotSpoilTheOthers) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
@@ -77,7 +77,7 @@ TEST(FlightFit, AChannelThatSeemsToHaveNoNoiseDoesNotSpoilTheOthers) {
         << theta.constants()[static_cast<std::size_t>(i)].name;
 }
 
-TEST(FlightFit, LongStepsServeWhereTheyDoNotShow) {
+TEST(FlightFit, LongIntegrationStepsAreUsedWhereTheyMakeNoDifference) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
@@ -100,7 +100,7 @@ TEST(FlightFit, LongStepsServeWhereTheyDoNotShow) {
   }
 }
 
-TEST(FlightFit, ACalmLogIsNotTakenForAGustyOne) {
+TEST(FlightFit, ACalmLogGetsItsOwnNoiseBesideAGustyOne) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   SimulationOptions options;
   options.duration = 20.0;
@@ -142,7 +142,7 @@ FlightLog pushed(const SimulatedFlight& flight, GustAxes axes) {
   return log;
 }
 
-TEST(FlightFit, GustsGetTheAxesThatTheyHave) {
+TEST(FlightFit, TheAxesOfGustsAreFound) {
   Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   SimulationOptions options;
   options.duration = 30.0;
