@@ -16,6 +16,7 @@
 #include "ident/core/simd/instruction_set.h"
 #include "ident/flight/fit/fit.h"
 #include "ident/flight/fit/fit_steps.h"
+#include "ident/flight/make_record.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "plain_fit.h"

@@ -9,6 +9,7 @@
 #include "ident/core/statistics.h"
 #include "ident/flight/checks/commands_vs_speeds.h"
 #include "ident/flight/conditioning/battery_voltage.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/record/flight_record.h"
 #include "ident/flight/refine.h"
 #include "support/known_quad.h"

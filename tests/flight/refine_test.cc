@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/core/error.h"
+#include "ident/flight/make_record.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/sim/simulate.h"
 

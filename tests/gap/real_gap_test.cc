@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ident/effects/catalogue.h"
+#include "ident/flight/make_record.h"
 #include "ident/gap/diagnose.h"
 #include "ident/gap/statistics/level_thrust.h"
 #include "ident/io/log/read_flight_log.h"

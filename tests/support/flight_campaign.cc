@@ -8,6 +8,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "support/random_vehicle.h"

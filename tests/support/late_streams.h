@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ident/flight/conditioning/align_streams.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
 #include "ident/sim/simulate.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/make_record.h"
 
 namespace ident {
 

@@ -1,6 +1,7 @@
 // The published vehicle in hover, as a log and as the record of it.
 #pragma once
 
+#include "ident/flight/make_record.h"
 #include "ident/flight/record/flight_record.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/sim/simulate.h"

@@ -3,9 +3,12 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace ident {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 template <class S>
 using Vec3 = Eigen::Matrix<S, 3, 1>;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ident/result/result.h"
+#include "ident/core/math.h"
 
 namespace ident {
 namespace {

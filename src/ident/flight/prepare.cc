@@ -17,6 +17,7 @@
 #include "ident/flight/conditioning/decimate_filtered.h"
 #include "ident/flight/conditioning/rotor_vibration.h"
 #include "ident/flight/fit/input_sensitivity.h"
+#include "ident/flight/make_record.h"
 
 namespace ident {
 namespace {

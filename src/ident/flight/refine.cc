@@ -19,6 +19,8 @@
 #include "ident/flight/checks/mean_moment.h"
 #include "ident/flight/checks/mean_thrust.h"
 #include "ident/flight/checks/rotor_speed_jitter.h"
+#include "ident/flight/checks/unidentifiable.h"
+#include "ident/flight/checks/vibration_in_commands.h"
 #include "ident/flight/conditioning/battery_voltage.h"
 #include "ident/flight/fit/extend_by_score_test.h"
 #include "ident/flight/fit/first_order_motors.h"
@@ -28,8 +30,10 @@
 #include "ident/flight/fit/physical_inertia.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/record/channel_units.h"
-#include "ident/flight/trim/trim.h"
+#include "ident/flight/refine_trim.h"
+#include "ident/views/data_health.h"
 #include "ident/views/flight_residuals.h"
+#include "ident/views/held_out_section.h"
 #include "ident/views/profile_likelihood.h"
 #include "ident/views/thrust_by_command.h"
 
@@ -146,10 +150,10 @@ void validate(Result& result, const FlightRecord& record, const Theta& theta, Fl
   // The constants as stated, with the gyro biases of the fit.
   before.head(static_cast<Eigen::Index>(result.parameters.size())).setZero();
   fit.smoother.reset(), view.smoother.reset();
-  Validation validation = validate_refined(held_out, theta, before, view, shown);
-  result.fit["held_out"] = validation.horizons;
-  result.sections.push_back(std::move(validation.section));
-  if (!validation.worse.empty()) doubt_where_worse(result, validation.worse);
+  const Validation validation = validate_refined(held_out, theta, before, view);
+  result.fit["held_out"] = held_out_json(validation);
+  result.sections.push_back(held_out_section(validation, held_out, theta, before, view, shown));
+  if (validation.worse) doubt_where_worse(result, predicts_worse_text(validation));
 }
 
 std::string verdict(const Result& result, double seconds) {
@@ -228,23 +232,6 @@ void show(Result& result, const Refined& refined, const SteadyPush& push, const 
 }
 
 }  // namespace
-
-void warn_about(Result& result, const Theta& theta, const FlightFit& fit) {
-  warn_of_disagreement(result, "the model lacks an effect (try ident gap)");
-  doubt_negative_dead_time(result);
-  doubt_drawn_away(result);
-  std::string unknown;
-  for (const Parameter& p : result.parameters)
-    if (!p.identifiable) unknown += (unknown.empty() ? "" : ", ") + p.name;
-  if (!unknown.empty()) {
-    std::string text = "these logs do not determine " + unknown;
-    std::vector<std::string> pairs;
-    if (!result.has_warning("thrust_level")) pairs = combinations(theta, fit, result.parameters);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      text += (i == 0 ? "; what they do determine: " : ", ") + pairs[i];
-    result.warn("not_identifiable", text);
-  }
-}
 
 Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
                         const RefineOptions& options) {

@@ -37,11 +37,4 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
 /// model: RMS, fit in percent and Theil's inequality coefficient per channel.
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
 
-/// Warns where the flight disagrees with what was known beforehand, and of what it does not determine.
-void warn_about(Result& result, const Theta& theta, const FlightFit& fit);
-
-/// Data health: rates, arcs, noise levels, units and frames as they were decided.
-Section data_health(const FlightRecord& record, std::span<const FlightLog> logs, const NoiseModel& noise,
-                    const Vibration& vibration);
-
 }  // namespace ident

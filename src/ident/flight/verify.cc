@@ -10,7 +10,8 @@
 #include "ident/flight/prepare.h"
 #include "ident/flight/record/channel_units.h"
 #include "ident/flight/refine.h"
-#include "ident/flight/trim/trim.h"
+#include "ident/flight/refine_trim.h"
+#include "ident/views/data_health.h"
 
 namespace ident {
 namespace {

@@ -25,7 +25,7 @@
 #include "ident/flight/fit/physical_inertia.h"
 #include "ident/flight/fit/prediction.h"
 #include "ident/flight/prepare.h"
-#include "ident/flight/trim/trim.h"
+#include "ident/flight/refine_trim.h"
 #include "ident/gap/diagnose_trim.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/evidence.h"
@@ -41,6 +41,7 @@
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/search_details.h"
+#include "ident/views/data_health.h"
 
 namespace ident {
 namespace {

@@ -12,7 +12,7 @@
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
 #include "ident/effects/catalogue.h"
-#include "ident/flight/trim/trim.h"
+#include "ident/flight/refine_trim.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/search/further.h"
 #include "ident/gap/verdict/verdict.h"

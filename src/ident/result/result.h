@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "ident/core/math.h"
 #include "ident/result/correlation.h"
 
 namespace ident {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// An estimate in SI units. `std` is corrected for the colour of the residuals, `naive_std` is not.
 struct Parameter {

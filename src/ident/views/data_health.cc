@@ -1,11 +1,12 @@
-// What was read and how noisy it is, as a section of a report.
+// Tables of the noise levels found and of what was left out.
+#include "ident/views/data_health.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "ident/core/format_number.h"
 #include "ident/flight/record/channel_units.h"
-#include "ident/flight/refine.h"
 
 namespace ident {
 

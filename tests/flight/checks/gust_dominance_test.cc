@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "ident/flight/make_record.h"
 #include "support/known_quad.h"
 
 namespace ident {

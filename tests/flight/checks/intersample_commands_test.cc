@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/flight/checks/command_rate.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/record/command_history.h"
 #include "ident/flight/refine.h"
 #include "support/known_quad.h"

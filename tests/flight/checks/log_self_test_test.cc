@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/refine.h"
 #include "ident/gap/diagnose.h"

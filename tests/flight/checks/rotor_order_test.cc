@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ident/flight/checks/log_self_test.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/refine.h"
 #include "ident/sim/simulate.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
 #include "support/jumping_speeds.h"
 

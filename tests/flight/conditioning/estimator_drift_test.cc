@@ -8,6 +8,7 @@
 
 #include "ident/effects/catalogue.h"
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
 #include "support/diagnosed.h"
 #include "support/slow_errors.h"

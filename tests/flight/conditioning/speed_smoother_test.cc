@@ -10,6 +10,7 @@
 #include "ident/core/random.h"
 #include "ident/flight/conditioning/speed_modes.h"
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
 #include "ident/flight/smoother/input_error.h"
 #include "ident/sim/simulate.h"

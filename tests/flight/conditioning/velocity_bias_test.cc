@@ -1,6 +1,7 @@
 // Velocities that are off by a constant: seen by positions, taken out, and no gap.
 #include <gtest/gtest.h>
 
+#include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
 #include "support/diagnosed.h"
 

@@ -5,6 +5,7 @@
 
 #include "ident/flight/fit/fit.h"
 #include "ident/flight/fit/fit_steps.h"
+#include "ident/flight/make_record.h"
 #include "support/flight_campaign.h"
 #include "support/known_quad.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/core/random.h"
+#include "ident/flight/make_record.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/sim/simulate.h"
 #include "support/open_loop_flight.h"

@@ -7,6 +7,7 @@
 
 #include "ident/flight/fit/fit.h"
 #include "ident/flight/fit/fit_steps.h"
+#include "ident/flight/make_record.h"
 #include "support/known_quad.h"
 
 namespace ident {

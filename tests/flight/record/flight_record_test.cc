@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
 #include "ident/sim/simulate.h"
 #include "support/random_vehicle.h"

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/make_record.h"
 #include "support/open_loop_flight.h"
 #include "support/published_hover.h"
 

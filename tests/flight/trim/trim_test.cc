@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "ident/core/error.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
 #include "ident/io/log/read_flight_log.h"
 #include "support/path_only.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ident/flight/make_record.h"
 #include "ident/gap/hypotheses/fitted_model.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/sim/simulate.h"

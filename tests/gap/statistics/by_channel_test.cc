@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "ident/flight/make_record.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/sim/simulate.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/effects/catalogue.h"
+#include "ident/flight/make_record.h"
 #include "support/published_hover.h"
 
 namespace ident {

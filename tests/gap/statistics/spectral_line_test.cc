@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ident/core/random.h"
+#include "ident/flight/make_record.h"
 #include "support/published_hover.h"
 
 namespace ident {

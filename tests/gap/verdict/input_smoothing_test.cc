@@ -6,6 +6,7 @@
 #include "ident/core/random.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"
+#include "ident/flight/make_record.h"
 #include "support/diagnosed.h"
 
 namespace ident {

@@ -12,6 +12,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/record/flight_record.h"
 #include "support/published_hover.h"
 

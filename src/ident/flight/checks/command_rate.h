@@ -5,19 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "ident/data/sampling.h"
 #include "ident/flight/record/flight_record.h"
 #include "ident/result/result.h"
 
 namespace ident {
-
-/// Rows of a log that bring something new of a group of columns, and the median time between them, s (NaN of
-/// fewer than two): the rows where it was sampled; of columns that hold in between, the rows where most of
-/// them change, if these come at even times.
-struct NewSamples {
-  std::vector<std::size_t> rows;
-  double apart = 0.0;
-};
-NewSamples new_samples(const std::vector<double>& t, std::span<const std::vector<double>> columns);
 
 /// Whether the commands of a log are so far apart that they leave open what the motors did in between: below
 /// 49 Hz.
@@ -34,10 +26,6 @@ double input_interval(const FlightRecord& record, std::span<const FlightLog> log
 /// Warning `seldom_commands`, or `seldom_speeds` where these are the input, of the log where that comes most
 /// seldom: rows come often enough, but that does not.
 std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const FlightLog> logs);
-
-/// By how much commands change from one to the next, of what they change over 25 of them: 1 for noise, 0 for
-/// what is smooth.
-double roughness(const FlightLog& log);
 
 /// Time between commands, s, of a log where these are seldom and rough, so that what was flown in between is
 /// not to be told from what was logged.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "ident/core/statistics.h"
-#include "ident/model/flight.h"
 
 namespace ident {
 namespace {
@@ -19,20 +18,6 @@ std::vector<Track> measured_speeds(const FlightArc& arc, std::size_t rotors) {
 }
 
 }  // namespace
-
-std::vector<Track> simulated_speeds(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p) {
-  const std::size_t rotors = vehicle.rotors.size();
-  std::vector<Track> out(rotors, Track(arc.rows(), 0.0));
-  const EffectSet<double> effects(p, active_effects(p));
-  Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
-  std::array<MotorState<double>, kMaxRotors> motors{};
-  for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
-  for (std::size_t i = 0; i < arc.rows(); ++i) {
-    for (std::size_t n = 0; n < rotors; ++n) out[n][i] = motors[n].Omega;
-    if (i + 1 < arc.rows()) flight.advance(motors, arc.t[i], arc.t[i + 1] - arc.t[i]);
-  }
-  return out;
-}
 
 Streams rotor_streams(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p,
                       bool measured) {
@@ -69,17 +54,6 @@ RotorWindows rotor_windows(const std::vector<Streams>& arcs, double interval, do
     }
   }
   for (std::size_t k = 0; k < 3; ++k) out.rates[k] = clipped_unit(std::move(rates[k]));
-  return out;
-}
-
-std::vector<RotorMoment> rotor_moments(const Vehicle& vehicle, std::span<const double> p) {
-  const double sigma = vehicle.signs == Signs::first_principles ? 1.0 : -1.0;
-  std::vector<RotorMoment> out;
-  for (const Rotor& rotor : vehicle.rotors) {
-    const Eigen::Vector3d a = axis_at(rotor, p[param::alpha]), per_Jp = -sigma * rotor.s * a;
-    out.push_back({p[param::kT] * cross<double, double>(rotor.r_B, a) - rotor.s * p[param::kQ] * a,
-                   p[param::Jp] * per_Jp, per_Jp});
-  }
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ident/flight/conditioning/windowed_changes.h"
+#include "ident/flight/record/rotor_moments.h"
 #include "ident/model/vehicle.h"
 
 namespace ident {
@@ -23,9 +24,6 @@ struct Streams {
   std::vector<double> mean_square;       ///< of Omega of each column
 };
 
-/// Speed of each rotor at the rows of an arc, simulated from its commands, rad/s.
-std::vector<Track> simulated_speeds(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p);
-
 /// Rotor speeds as measured or, when those are not asked for, simulated from the commands.
 Streams rotor_streams(const FlightArc& arc, const Vehicle& vehicle, std::span<const double> p, bool measured);
 
@@ -38,13 +36,6 @@ struct RotorWindows {
 
 /// Windows over `lag` s, the rates shifted by that share of the margin.
 RotorWindows rotor_windows(const std::vector<Streams>& arcs, double interval, double lag, double shift);
-
-/// What a rotor does about the three axes: by the integral of its squared speed, and by its speed.
-struct RotorMoment {
-  Eigen::Vector3d by_thrust, by_spin;
-  Eigen::Vector3d per_Jp;  ///< by_spin of rotors with an inertia of one
-};
-std::vector<RotorMoment> rotor_moments(const Vehicle& vehicle, std::span<const double> p);
 
 /// Correlation of the rate about each axis (row) with the moment about each (column) of rotors driven in that
 /// order.

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "ident/core/parallel.h"
-#include "ident/flight/checks/rotor_windows.h"
-#include "ident/flight/smoother/parameterisation.h"
+#include "ident/effects/typical_scale.h"
+#include "ident/flight/record/rotor_moments.h"
 #include "ident/model/body.h"
 
 namespace ident {

@@ -14,7 +14,6 @@
 #include "ident/core/format_number.h"
 #include "ident/core/parallel.h"
 #include "ident/core/statistics.h"
-#include "ident/flight/checks/implausible_estimates.h"
 #include "ident/flight/conditioning/commanded_motion.h"
 #include "ident/flight/conditioning/tone_amplitudes.h"
 #include "ident/flight/conditioning/tone_search.h"
@@ -217,12 +216,6 @@ std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<c
   vibration = take_out_all(record, out, rotors, sensors, scale);
   warnings.push_back({"vibration", told(vibration)});
   return out;
-}
-
-void doubt_passed_on(Result& result, const Vibration& vibration) {
-  if (vibration.passed_on)
-    doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"},
-              "the controller passes vibration on to the motors");
 }
 
 }  // namespace ident

@@ -41,8 +41,4 @@ struct Vibration {
 std::vector<FlightLog> without_vibration(const FlightRecord& record, std::span<const FlightLog> logs,
                                          Vibration& vibration, std::vector<Warning>& warnings);
 
-/// Where a controller answers to it, what rotors do as fast as they turn is taken out with it: what is known
-/// of motors is not known then.
-void doubt_passed_on(Result& result, const Vibration& vibration);
-
 }  // namespace ident

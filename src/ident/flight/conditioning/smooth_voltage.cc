@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "ident/core/statistics.h"
-#include "ident/flight/checks/command_rate.h"
+#include "ident/data/sampling.h"
 #include "ident/flight/record/command_history.h"
 #include "ident/flight/record/initial_states.h"
 

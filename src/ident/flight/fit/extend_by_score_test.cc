@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "ident/core/error.h"
-#include "ident/flight/checks/mean_thrust.h"
 #include "ident/flight/fit/fit_steps.h"
+#include "ident/flight/fit/mean_push.h"
 #include "ident/flight/fit/score_test.h"
 #include "ident/flight/fit/unstated_constants.h"
 

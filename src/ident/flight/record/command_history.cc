@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ident/flight/checks/command_rate.h"
+#include "ident/data/sampling.h"
 
 namespace ident {
 namespace {

@@ -68,15 +68,6 @@ struct FlightRecord {
                           ///< errors of speeds do is reckoned by them
 };
 
-struct RecordOptions {
-  double longest_gap = 0.25;  ///< s without a row that ends an arc
-};
-
-/// Splits logs into arcs in flight. `p` are the constants to start from (motor states are simulated with
-/// them). Throws DataError when nothing is left to estimate from.
-FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> p,
-                                std::span<const FlightLog> logs, const RecordOptions& options = {});
-
 /// Throws DataError where a path was logged, but neither rates nor attitude: a fit cannot find how the
 /// vehicle turned.
 void require_turning(const Signals& logged);

@@ -81,9 +81,6 @@ class Theta {
 std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vector<double>& p,
                                          const std::vector<std::string>& also = {});
 
-/// Size of a unit step of a constant: a typical size where its value may be zero.
-double typical_scale(int index, const Vehicle& vehicle, const std::vector<double>& p);
-
 /// Largest physical distance of the constant of an effect from its null value on this vehicle; infinite for
 /// other constants.
 double physical_limit(const FreeConstant& constant);

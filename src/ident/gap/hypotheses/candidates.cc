@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ident/effects/all_parameters.h"
+#include "ident/effects/typical_scale.h"
 #include "ident/flight/trim/trim.h"
 
 namespace ident {

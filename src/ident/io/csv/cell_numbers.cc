@@ -10,7 +10,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "ident/io/csv/parse_number.h"
+#include "ident/core/parse_number.h"
 
 namespace ident {
 namespace {

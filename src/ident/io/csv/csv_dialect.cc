@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ident/io/csv/parse_number.h"
+#include "ident/core/parse_number.h"
 #include "ident/io/csv/text_encoding.h"
 
 namespace ident {

@@ -12,8 +12,8 @@
 #include <regex>
 
 #include "ident/core/error.h"
+#include "ident/core/parse_number.h"
 #include "ident/io/csv/match_header.h"
-#include "ident/io/csv/parse_number.h"
 
 namespace ident {
 namespace {

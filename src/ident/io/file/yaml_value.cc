@@ -10,7 +10,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/nearest_word.h"
-#include "ident/io/csv/parse_number.h"
+#include "ident/core/parse_number.h"
 #include "ident/io/file/read_bytes.h"
 
 namespace ident {

@@ -6,8 +6,8 @@
 
 #include "ident/core/error.h"
 #include "ident/core/nearest_word.h"
+#include "ident/core/parse_number.h"
 #include "ident/effects/all_parameters.h"
-#include "ident/io/csv/parse_number.h"
 #include "ident/io/vehicle/parameter_names.h"
 #include "ident/io/vehicle/vehicle_correlations.h"
 #include "ident/io/vehicle/vehicle_yaml.h"

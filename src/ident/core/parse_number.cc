@@ -1,5 +1,5 @@
 // std::from_chars with the decisions it leaves to us: a plus sign, overflow, underflow.
-#include "ident/io/csv/parse_number.h"
+#include "ident/core/parse_number.h"
 
 #include <charconv>
 #include <limits>

@@ -1,10 +1,13 @@
 // What a refinement and a verification say where all that is left is the balance of the rotors.
+#include "ident/flight/refine_trim.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "ident/flight/refine.h"
+#include "ident/flight/checks/unidentifiable.h"
+#include "ident/flight/fit/fitted_parameters.h"
 #include "ident/flight/trim/trim.h"
 
 namespace ident {
