@@ -101,7 +101,8 @@ TEST(Documents, EverySubcommandIsInTheGuide) {
 TEST(Documents, FilesThatTheTheoryNamesAreThere) {
   for (const fs::path& page : theory())
     for (const std::string& name : matches(content(page), R"(`([\w./]+\.(?:h|cc|def|md|py|sh))`)")) {
-      const bool there = fs::exists(page.parent_path() / name) || fs::exists(kSource / name);
+      const bool there = fs::exists(page.parent_path() / name) || fs::exists(kSource / "src/ident" / name) ||
+                         fs::exists(kSource / name);
       EXPECT_TRUE(there) << page << " names " << name;
     }
 }
