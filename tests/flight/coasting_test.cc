@@ -34,7 +34,7 @@ Vehicle stated(Vehicle v, double off) {
 }
 
 // With those rows the moments about roll and pitch come out 14 to 24 % too small, and sure of it.
-TEST(Coasting, MotorsThatAreOffTellNothing) {
+TEST(Coasting, RowsWithMotorsOffAreLeftOut) {
   const Vehicle truth = quad();
   for (const auto& [seed, coasts, off] : {std::tuple{1, 2.0, 1.0}, std::tuple{2, 5.0, -1.0}}) {
     const FlightLog log = coasting_flight(truth, kLag, coasts, static_cast<std::uint64_t>(seed));
@@ -67,7 +67,7 @@ TEST(Coasting, LogsWithoutAttitudeAndBesideOthers) {
 }
 
 // Motors that follow a command of 0 as any other are told by those rows too.
-TEST(Coasting, MotorsThatFollowACommandOfNothingAreUsed) {
+TEST(Coasting, RowsAreUsedWhereMotorsFollowACommandOfZero) {
   const Vehicle truth = quad();
   const FlightLog log = coasting_flight(truth, kLag, 0.0, 1);
   EXPECT_TRUE(without_undriven(truth, std::span(&log, 1)));
@@ -103,7 +103,7 @@ TEST(Coasting, StretchesWithAMotorOff) {
 }
 
 // Arcs between them are short, and motors stand still where they begin.
-TEST(Coasting, ShortArcsBetweenThemAreFlown) {
+TEST(Coasting, ShortArcsBetweenMotorsOffAreUsed) {
   const Vehicle truth = quad();
   const FlightLog log = coasting_flight(truth, kLag, 5.0, 4);
   std::vector<FlightLog> driven = *without_undriven(truth, std::span(&log, 1));

@@ -39,7 +39,7 @@ TEST(FlightFindings, MotorsAreFoundFromRowsThatAreFarApart) {
   }
 }
 
-TEST(FlightFindings, LogsOfTwoVehiclesAreToldApart) {
+TEST(FlightFindings, LogsOfTwoVehiclesAreReportedAsInconsistent) {
   const Vehicle truth = quad();
   Vehicle other = truth;
   for (const char* name : {"Jxx", "Jyy", "Jzz"}) other.parameters[name].value *= 1.8;
@@ -90,7 +90,7 @@ TEST(FlightFindings, HoverAloneLeavesMotorsAndInertiaAsTheyWere) {
 
 // A state that nothing measures once took all digits of the others with it, and what kept it in place passed
 // for information: km was known to a ten-thousandth, wrongly.
-TEST(FlightFindings, WhatIsNotMeasuredMakesNothingBetterKnown) {
+TEST(FlightFindings, MissingSensorsNeverNarrowAnInterval) {
   const Vehicle truth = quad();
   Vehicle stated = known(truth);
   stated.parameters["km"].value *= 1.02;
@@ -161,7 +161,7 @@ TEST(FlightFindings, HolesThatWouldLeaveNothingAreBridged) {
 }
 
 // A log of a few rows beside a whole one is not full of holes: it holds no flight.
-TEST(FlightFindings, ALogTooShortToFlyIsSaidNotToBeUsed) {
+TEST(FlightFindings, ALogWithoutALongEnoughArcIsReported) {
   const Vehicle vehicle = quad();
   std::vector<FlightLog> logs(2, flight(vehicle, 250, 1, 5));
   logs[1].file = "cut.csv";
@@ -183,7 +183,7 @@ TEST(FlightFindings, AMissingEffectIsNoOtherVehicle) {
 }
 
 // Commands that were left out of one log serve for none.
-TEST(FlightFindings, SpeedsServeForAllLogsWhereOneHasNoCommands) {
+TEST(FlightFindings, SpeedsAreTheInputOfAllLogsWhenOneHasNoCommands) {
   const Vehicle truth = quad();
   std::vector<FlightLog> logs{flight(truth, 100, 1, 20), flight(truth, 100, 2, 20)};
   logs[1].delta.clear();
@@ -194,7 +194,7 @@ TEST(FlightFindings, SpeedsServeForAllLogsWhereOneHasNoCommands) {
 }
 
 // Commands that stand at one limit or the other: no lag makes speeds of these. What the speeds tell stays.
-TEST(FlightFindings, SpeedsServeWhereTheyContradictTheCommands) {
+TEST(FlightFindings, SpeedsAreTheInputWhereTheyContradictTheCommands) {
   const Vehicle truth = quad();
   FlightLog log = flight(truth, 100, 1, 20);
   EXPECT_FALSE(commands_contradict_speeds(log));
@@ -235,7 +235,7 @@ TEST(FlightFindings, TheSignOfACommandIsNone) {
 }
 
 // Slow or fast, hardly damped or hardly moving: motors are no reason to distrust commands.
-TEST(FlightFindings, AnyMotorFollowsItsCommand) {
+TEST(FlightFindings, CommandsAreConsistentWithAnyMotorLag) {
   for (const auto& [omega_m, zeta_m] : {std::pair{5.0, 0.4}, {5.0, 2.0}, {80.0, 0.4}, {80.0, 2.0}}) {
     Vehicle vehicle = quad();
     vehicle.parameters["omega_m"].value = omega_m, vehicle.parameters["zeta_m"].value = zeta_m;
@@ -249,7 +249,7 @@ TEST(FlightFindings, AnyMotorFollowsItsCommand) {
 }
 
 // A controller makes up for a battery that falls: commands rise, speeds and flight stay.
-TEST(FlightFindings, ABatteryContradictsNoCommands) {
+TEST(FlightFindings, BatterySagDoesNotContradictCommands) {
   for (const char* scenario : {"eight", "mixed", "hover"}) {
     SimulationOptions options;
     options.scenario = scenario, options.rate = 100, options.duration = 60;
@@ -261,7 +261,7 @@ TEST(FlightFindings, ABatteryContradictsNoCommands) {
 }
 
 // Speeds that do nothing but shake say nothing of commands.
-TEST(FlightFindings, SpeedsThatHardlyChangeContradictNothing) {
+TEST(FlightFindings, NearlyConstantSpeedsDoNotContradictCommands) {
   const Vehicle truth = quad();
   FlightLog log = hover(truth, 20);
   Random random(3);
@@ -274,7 +274,7 @@ TEST(FlightFindings, SpeedsThatHardlyChangeContradictNothing) {
   EXPECT_FALSE(commands_contradict_speeds(log));
 }
 
-TEST(FlightFindings, ABatteryThatTheModelDoesNotKnowIsNamed) {
+TEST(FlightFindings, AnUnmodelledBatteryIsReported) {
   Vehicle vehicle = quad();
   FlightLog log = flight(vehicle, 100, 1, 10.0);
   const auto falls_by = [&](double share) {

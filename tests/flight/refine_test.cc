@@ -152,7 +152,7 @@ TEST(FlightRefine, ThePublishedVehicleIsFoundFromItsPublishedManoeuvre) {
 }
 
 // A vehicle file whose inertia is in other units: what is left of the flight is no number.
-TEST(FlightRefine, SimulationsThatRunAwayAreCountedAndLeftOut) {
+TEST(FlightRefine, DivergedSimulationsAreCountedAndLeftOut) {
   SimulationOptions options;
   options.duration = 10.0;
   Vehicle wrong = feasible();
@@ -237,7 +237,7 @@ TEST(Theta, AnInertiaThatIsNotPositiveDefiniteIsNotPossible) {
 }
 
 // Against a prior of 60 % an inertia once went to 1e-32 for the price of less than two deviations.
-TEST(Theta, WhatIsPositiveDoesNotVanishForAFewDeviations) {
+TEST(Theta, PositiveConstantsDoNotVanishAgainstAWeakPrior) {
   Vehicle v = feasible();
   v.parameters["Jxx"].std = 0.6 * v.value("Jxx");
   const std::vector<double> p = parameter_vector(v);

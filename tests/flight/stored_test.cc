@@ -19,7 +19,7 @@ Vehicle feasible() {
 
 // Of a log without rotor speeds only kT km^2 can be known, here to 0.2 %: each is left with half of its
 // deviation and more, and what was stated of them was 12 % off together.
-TEST(FlightStored, ConstantsThatAreKnownTogetherOnlyAreStoredTogether) {
+TEST(FlightStored, CorrelatedConstantsAreStoredTogether) {
   const Vehicle truth = feasible();
   Vehicle stated = truth;
   for (const char* name : {"kT", "kQ", "km"}) {
@@ -40,7 +40,7 @@ TEST(FlightStored, ConstantsThatAreKnownTogetherOnlyAreStoredTogether) {
   EXPECT_GT(stored.parameters.at("kT").std.value(), 0.5 * 0.05 * truth.value("kT"));
 }
 
-TEST(FlightStored, WhatIsNotTrustedIsNot) {
+TEST(FlightStored, UntrustedConstantsAreNotStored) {
   Result result;
   for (const char* name : {"kT", "km", "omega_m"}) {
     Parameter p;

@@ -91,7 +91,7 @@ TEST(SteadyPush, LogsOfDifferentThrustAreNamed) {
 }
 
 // What leans against a wind is held down by nothing.
-TEST(SteadyPush, DragOfAVehicleThatLeansIsNone) {
+TEST(SteadyPush, DragOfALeaningVehicleIsNotAThrustError) {
   Vehicle truth = quad();
   const Vehicle stated = known(truth);
   truth.parameters["wind.north"] = {6.0, {}}, truth.parameters["parasitic_drag.C"] = {0.02, {}};

@@ -7,7 +7,7 @@
 
 namespace ident {
 
-/// Exit status of the program, see "Exit status" in the file format description.
+/// Exit status of the program, see "Exit status" in notebooks/guide/formats.md.
 enum class ExitStatus : int { done = 0, data_do_not_allow = 1, bad_input = 2, cannot_write = 6 };
 
 /// Base of all errors for which the message is meant for the user.

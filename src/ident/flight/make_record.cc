@@ -1,5 +1,4 @@
-// Makes arcs of the pieces of logs, numbers the channels and reads first states and noise levels off the
-// data.
+// Makes arcs of logs, numbers the channels, and reads first states and noise levels off the data.
 #include "ident/flight/make_record.h"
 
 #include <fmt/format.h>
@@ -21,9 +20,9 @@
 namespace ident {
 namespace {
 
-constexpr double kLongestDelay = 1.0;  ///< s of commands before a flight that may still be on their way
-constexpr double kStood = 0.1;         ///< s after rows with a motor off: it may not have come up to speed
-constexpr double kHistory = 0.05;  ///< s of commands beyond the stated dead time that a flight starts with
+constexpr double kLongestDelay = 1.0;  ///< s of commands before a flight that may still act
+constexpr double kStood = 0.1;         ///< s after rows with a motor off, in which it may not be up to speed
+constexpr double kHistory = 0.05;  ///< s of known commands, beyond the stated dead time, before an arc starts
 
 Signals signals_of(std::span<const FlightLog> logs) {
   Signals s;
@@ -118,14 +117,14 @@ FlightArc make_arc(const FlightLog& log, const std::vector<double>& voltage, int
   return arc;
 }
 
-// Whether it is known what every rotor does: from commands, or from speeds of which there are any.
+// Whether the input of every rotor is known, from commands or from speeds.
 bool is_driven(const FlightArc& arc) {
   const auto& speeds = arc.inputs->Omega;
   return arc.inputs->commanded() ||
          (!speeds.empty() && std::ranges::none_of(speeds, [](const auto& s) { return s.empty(); }));
 }
 
-// Motors are simulated for all logs or for none.
+// Throws where some logs have commands and others do not: motors are simulated for all logs or for none.
 void require_like_inputs(std::span<const FlightLog> logs) {
   for (const FlightLog& log : logs)
     if (log.has_commands() != logs.front().has_commands())

@@ -60,7 +60,7 @@ struct Vehicle {
 };
 
 /// The named layouts: `plus`, `x`, `4sp`, arm in m (centre to hub), slant in rad (4sp only).
-/// Rotor order and spins as in the file format description. Throws UsageError on another name.
+/// Rotor order and spins as in notebooks/guide/formats.md. Throws UsageError on another name.
 std::vector<Rotor> layout_rotors(const std::string& layout, double arm, double slant);
 
 /// The vehicle's slant angle: parameter `alpha`, 0 without one.

@@ -35,7 +35,7 @@ TEST(FlightStreams, RotorSpeedsThatAreLateAreReadEarlier) {
 
 // Thrust that climbs take back makes speeds look late to the force, and nothing of what turns the vehicle
 // does.
-TEST(FlightStreams, SpeedsThatOnlyTheForceCallsLateAreNot) {
+TEST(FlightStreams, SpeedsThatAreLateAgainstForceOnlyAreNotShifted) {
   const Vehicle vehicle = random_vehicle(5);
   FlightLog log = simulated(vehicle, "mixed", 5);
   for (auto& column : log.Omega) delay(column, 4);
@@ -52,7 +52,7 @@ TEST(FlightStreams, SpeedsThatOnlyTheForceCallsLateAreNot) {
 
 // 20 ms is more than a filter makes the rates late by: attitude and motion would be moved, if rotor speeds
 // did not say that it is the IMU.
-TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {
+TEST(FlightStreams, RotorSpeedsDecideWhetherTheImuIsLate) {
   const Vehicle vehicle = random_vehicle(5);
   FlightLog log = late_by(4, vehicle, {&FlightLog::w_B, &FlightLog::f_B});
   for (const bool with_speeds : {true, false}) {
@@ -66,7 +66,7 @@ TEST(FlightStreams, RotorSpeedsTellWhetherTheImuIsLate) {
 
 // What a satellite tells comes late; the force would be moved, if rotor speeds did not say that it is in
 // time.
-TEST(FlightStreams, RotorSpeedsTellWhetherThePathIsLate) {
+TEST(FlightStreams, RotorSpeedsDecideWhetherThePathIsLate) {
   const Vehicle vehicle = random_vehicle(5);
   FlightLog log = late_by(8, vehicle, {&FlightLog::v_W, &FlightLog::x_W});
   for (const bool with_speeds : {true, false}) {
@@ -80,7 +80,7 @@ TEST(FlightStreams, RotorSpeedsTellWhetherThePathIsLate) {
 }
 
 // Held from one sample to the next they would look late by half of what is between.
-TEST(FlightStreams, SpeedsThatAreSampledSeldomAreNotLateForThat) {
+TEST(FlightStreams, RareSpeedSamplesAreNotLate) {
   const Vehicle vehicle = random_vehicle(5);
   FlightLog log = simulated(vehicle, "mixed", 5);
   for (auto& column : log.Omega)

@@ -130,7 +130,7 @@ TEST(FlightStreams, APathIsLateInALogWithoutAttitude) {
 
 // No accelerometer is early by a tenth of a second, whether or not anything else says so. Satellites are
 // seldom heard.
-TEST(FlightStreams, APathThatIsLaterThanAnySensorIsEarlyIsLate) {
+TEST(FlightStreams, AVeryLatePathIsShiftedInsteadOfTheForce) {
   const Vehicle vehicle = random_vehicle(5);
   const FlightLog whole = late_by(25, vehicle, {&FlightLog::v_W, &FlightLog::x_W});
   for (const std::size_t every : {1, 20})

@@ -65,7 +65,7 @@ TEST(WhiteStride, WithoutNoiseNothingIsLeftOut) {
   EXPECT_EQ(white_stride(t, shown(t, 500, 0, 0, 1)), 1u);
 }
 
-TEST(WhiteStride, FilteredNoiseIsAboutWhiteThen) {
+TEST(WhiteStride, DecimatedFilteredNoiseIsAboutWhite) {
   for (const double rate : {250.0, 400.0, 1000.0})
     for (const double cutoff : {40.0, 60.0, 90.0}) {
       const auto t = times(20'000, rate);
@@ -79,7 +79,7 @@ TEST(WhiteStride, FilteredNoiseIsAboutWhiteThen) {
     }
 }
 
-TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
+TEST(WhitenedSensors, DecimatesAndWarns) {
   FlightLog log;
   log.file = "fast.csv", log.t = times(10'000, 1000);
   log.w_B = shown(log.t, 1000, 0.02, 50, 1), log.f_B = shown(log.t, 1000, 0.1, 0, 2);
@@ -100,7 +100,7 @@ TEST(WhitenedSensors, LeavesOneInSoManyAndSaysSo) {
 }
 
 // Without attitude more samples of one sensor would decide between two that are late differently.
-TEST(WhitenedSensors, LeavesAsFewOfTheOtherWithoutAttitude) {
+TEST(WhitenedSensors, DecimatesBothSensorsAlikeWithoutAttitude) {
   FlightLog log;
   log.file = "fast.csv", log.t = times(10'000, 1000);
   log.w_B = shown(log.t, 1000, 0.02, 50, 1), log.f_B = shown(log.t, 1000, 0.1, 0, 2);
@@ -121,7 +121,7 @@ TEST(WhitenedSensors, LeavesAsFewOfTheOtherWithoutAttitude) {
 
 // Counted as white, noise below 45 Hz in a log of 1000 Hz passes for gusts, and what the rotors do is lost in
 // them: inertias came out fifteen times less well known.
-TEST(WhitenedSensors, FilteredNoiseDoesNotPassForGusts) {
+TEST(WhitenedSensors, FilteredNoiseIsNotEstimatedAsGusts) {
   const Vehicle truth = random_vehicle(4);
   SimulationOptions options;
   options.duration = 30, options.rate = 1000, options.seed = 4;
@@ -151,7 +151,7 @@ TEST(WhitenedSensors, FilteredNoiseDoesNotPassForGusts) {
 
 // Of rates and forces alone, behind filters of their own: what these make late is in the motors' lag, and
 // said to be; a free dead time takes it, and the moments of inertia are right with either.
-TEST(WhitenedSensors, AFiltersLagIsNamedWithoutAttitude) {
+TEST(WhitenedSensors, FilterLagIsReportedWithoutAttitude) {
   const Vehicle truth = testing::quad(0.0);
   SimulationOptions options;
   options.duration = 20, options.rate = 1000, options.seed = 4;

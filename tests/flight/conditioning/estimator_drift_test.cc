@@ -37,7 +37,7 @@ bool any_drifts(const FlightRecord& record) {
   return drifts(record, kShownAttitude) || drifts(record, kShownVelocity) || drifts(record, kShownPosition);
 }
 
-TEST(SlowErrors, IsSeenInTheLogAndToldOnce) {
+TEST(SlowErrors, AreFoundInTheLogAndReportedOnce) {
   const Vehicle vehicle = testing::published_vehicle();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     FlightLog log = flown(vehicle, seed).log;
@@ -55,7 +55,7 @@ TEST(SlowErrors, IsSeenInTheLogAndToldOnce) {
 }
 
 // Velocities against forces and positions; what is off by itself is not taken for another.
-TEST(SlowErrors, AreToldApart) {
+TEST(SlowErrors, OfDifferentSensorsAreSeparated) {
   const Vehicle vehicle = testing::published_vehicle();
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     FlightLog fast = flown(vehicle, seed).log, far = fast;
@@ -82,7 +82,7 @@ TEST(SlowErrors, AreNotTheWhiteNoiseOfAnAttitudeThatTurns) {
 }
 
 // How a sensor is mounted, its scale, bias or delay is none of it, nor is flight with little of anything.
-TEST(SlowErrors, AreNotWhatElsePartsSensors) {
+TEST(SlowErrors, AreNotConfusedWithOtherSensorErrors) {
   const Vehicle plain = testing::published_vehicle();
   const auto with = [&](std::initializer_list<std::pair<const char*, double>> values) {
     Vehicle vehicle = plain;
@@ -112,7 +112,7 @@ TEST(SlowErrors, AreNotWhatElsePartsSensors) {
 }
 
 // Noise rounds find the level, and the states the error itself.
-TEST(SlowErrors, IsEstimatedWithTheFlight) {
+TEST(SlowErrors, AreEstimatedWithTheFlight) {
   const Vehicle vehicle = testing::published_vehicle();
   FlightLog log = flown(vehicle, 3).log;
   const FlightLog true_log = log;
@@ -145,7 +145,7 @@ TEST(SlowErrors, IsEstimatedWithTheFlight) {
 }
 
 // An error held at the most that the log allows has come to rest: rounds that go on are many times the fit.
-TEST(SlowErrors, HeldAtTheMostThatTheLogShowsIsKnown) {
+TEST(SlowErrors, AtTheirUpperBoundEndTheNoiseRounds) {
   const Vehicle vehicle = testing::published_vehicle();
   FlightLog log = flown(vehicle, 3).log;
   testing::drift_attitude(log, kError, 3);
@@ -163,7 +163,7 @@ TEST(SlowErrors, HeldAtTheMostThatTheLogShowsIsKnown) {
   EXPECT_LT(change, 0.03);
 }
 
-TEST(SlowErrors, IsNoGapAndHidesNone) {
+TEST(SlowErrors, AreNoGapAndHideNone) {
   const Vehicle model = testing::published_vehicle();
   Vehicle truth = model;
   FlightLog log = flown(truth, 5).log;
@@ -184,7 +184,7 @@ TEST(SlowErrors, OfAnAutopilotsFilterAreNoGap) {
 }
 
 // By the rates that its attitude integrates, and without them by the forces that its velocities do.
-TEST(SlowErrors, AFilterIsToldFromSensors) {
+TEST(SlowErrors, AnEstimatorIsDistinguishedFromSensors) {
   const Vehicle model = testing::published_vehicle();
   FlightLog log = flown(model, 8).log;
   FlightRecord sensors = record_of(model, log);

@@ -71,7 +71,7 @@ TEST(Vibration, OfAllRotorsIsTakenOutAndNoneStandsOut) {
   EXPECT_LT(of[2], of[3]);
 }
 
-TEST(Vibration, OneRotorOutOfBalanceIsTold) {
+TEST(Vibration, OneRotorOutOfBalanceIsNamed) {
   const Vehicle vehicle = testing::shaken_vehicle();
   const FlightLog quiet = flown(vehicle, 3, true);
   const Freed alone = freed(vehicle, shaken(quiet, {0, 0, 0.8, 0}));
@@ -84,7 +84,7 @@ TEST(Vibration, OneRotorOutOfBalanceIsTold) {
 }
 
 // Where motion is too, little of a tone counts, and little of what is there: that bounds no size.
-TEST(Vibration, ALargeSlowPropellerOutOfBalanceIsToldAmongMotion) {
+TEST(Vibration, ALargeSlowPropellerOutOfBalanceIsNamedDespiteMotion) {
   Vehicle vehicle = testing::shaken_vehicle();
   for (const auto& [name, share] : std::initializer_list<std::pair<const char*, double>>{
            {"km", 1.0 / 3}, {"kT", 9.0}, {"kQ", 9.0}, {"omega_m", 0.6}})
@@ -96,7 +96,7 @@ TEST(Vibration, ALargeSlowPropellerOutOfBalanceIsToldAmongMotion) {
   EXPECT_EQ(out.vibration.stands_out(), 4) << ::testing::PrintToString(out.vibration.of_rotor);
 }
 
-TEST(Vibration, RotorsThatTurnAlikeAreNotToldApart) {
+TEST(Vibration, RotorsOfEqualSpeedAreNotSeparated) {
   const Vehicle vehicle = testing::shaken_vehicle();
   FlightLog log = flown(vehicle, 3, true);
   for (std::vector<double>& speed : log.Omega) speed = log.Omega[0];
@@ -152,7 +152,7 @@ TEST(Vibration, NoiseThatWasFilteredIsNoTone) {
 }
 
 // Eighty-five samples a second of some seventy-six turns: motion at times, tones at others.
-TEST(Vibration, WhereTonesPassForMotionNothingCounts) {
+TEST(Vibration, SamplesWhoseTonesAliasOntoMotionAreDropped) {
   const Vehicle vehicle = testing::shaken_vehicle();
   const FlightLog quiet = flown(vehicle, 8, true, 85.0), loud = shaken(quiet, {1.0, 1.5, 0.8, 1.2});
   const Freed out = freed(vehicle, loud);
@@ -174,7 +174,7 @@ TEST(Vibration, WhereTonesPassForMotionNothingCounts) {
 }
 
 // A controller that oscillates in yaw as fast as a rotor's turns show.
-TEST(Vibration, WhatRotorsWereToldToDoIsNoTone) {
+TEST(Vibration, CommandedMotionIsNoTone) {
   Vehicle vehicle = testing::shaken_vehicle();
   vehicle.parameters.at("Jp").value *= 25;
   const FlightLog quiet = flown(vehicle, 8, true);
@@ -259,7 +259,7 @@ TEST(Vibration, LogsWithGapsAndMixedRatesAreTakenAsTheyAre) {
 }
 
 // Two axes of a planar rig, and one that shows nothing.
-TEST(Vibration, AnAxisThatIsConstantOrMissingSpoilsNothing) {
+TEST(Vibration, AConstantOrMissingAxisSpoilsNoOther) {
   const Vehicle vehicle = testing::shaken_vehicle();
   for (const double value : {0.0, 0.7, kNaN}) {
     FlightLog loud = shaken(flown(vehicle, 10, true), {1.0, 1.5, 0.8, 1.2});

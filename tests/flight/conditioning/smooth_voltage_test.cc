@@ -53,7 +53,7 @@ bool is_as_logged(const FlightLog& log) {
   return same;
 }
 
-TEST(QuietVoltage, IsNearerToTheTruth) {
+TEST(QuietVoltage, IsCloserToTheTruthThanTheLog) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const FlightLog truth = flown(seed), log = with_noise(truth, seed);
     EXPECT_NEAR(rms_between(log.vbat, truth.vbat), kNoise, 0.15 * kNoise);
@@ -120,7 +120,7 @@ TEST(QuietVoltage, LeavesOutWhatIsNoVoltage) {
 }
 
 // Its noise would pass for sag that the motors do not feel: half of it was found then.
-TEST(QuietVoltage, TellsHowSpeedsGoWithIt) {
+TEST(QuietVoltage, GivesAnUnbiasedSagExponent) {
   Vehicle vehicle = testing::known(with_battery(0.8));
   vehicle.parameters["battery_sag.n"].std = 0.4;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -69,7 +69,7 @@ TEST(SpeedModes, AreOrthogonalAndOneLiftsOneRollsOnePitchesOneYaws) {
   }
 }
 
-TEST(SpeedModes, SmallDifferencesAreNotWeakenedByNoise) {
+TEST(SpeedModes, SmallDifferencesAreNotAttenuated) {
   const Flown flown(5.0);
   const SmoothedSpeeds found = smoothed_speeds(flown.t, flown.seen, flown.modes);
   EXPECT_NEAR(slope_of(flown.roll, along(found.likely, flown.modes.row(1))), 1.0, 0.1);
@@ -106,7 +106,7 @@ TEST(SpeedModes, RotorsThatAreSampledInTurnAreSmoothedEachByItself) {
     EXPECT_EQ(found.likely[n], smoothed_speed(flown.t, flown.seen[n]).likely) << n;
 }
 
-TEST(SpeedModes, ARotorWithoutAnySpeedLeavesNone) {
+TEST(SpeedModes, ARotorWithoutAnySampleGivesNoSpeeds) {
   Flown flown(5.0);
   flown.seen[2].assign(flown.t.size(), kNaN);
   const SmoothedSpeeds found = smoothed_speeds(flown.t, flown.seen, flown.modes);

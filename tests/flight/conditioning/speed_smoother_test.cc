@@ -52,7 +52,7 @@ double slope_of_rates(const Speed& s, const std::vector<double>& by) {
   return xy / xx;
 }
 
-TEST(SpeedSmoother, TakesNoiseOffAndLeavesTheMotion) {
+TEST(SpeedSmoother, RemovesNoiseAndKeepsTheMotion) {
   const Speed s = speed_of(3.0);
   const SmoothedSpeed found = smoothed_speed(s.t, s.seen);
   EXPECT_LT(rms(found.likely, s.truth), 1.0);
@@ -62,7 +62,7 @@ TEST(SpeedSmoother, TakesNoiseOffAndLeavesTheMotion) {
 }
 
 // The error in the mean square, and that of means over a quarter of a second, as stated.
-TEST(SpeedSmoother, SaysHowFarOffItIs) {
+TEST(SpeedSmoother, GivesItsOwnErrorVariance) {
   const Speed s = speed_of(3.0, 20000);
   const SmoothedSpeed found = smoothed_speed(s.t, s.seen);
   double square = 0, stated = 0, of_means = 0, stated_of_means = 0;
@@ -124,7 +124,7 @@ TEST(SpeedSmoother, FollowsBurstsAndSmoothsWhatIsCalm) {
 
 // Hover, then a sudden stop, or a sample that is false: every row keeps a number, and a false sample its
 // neighbours.
-TEST(SpeedSmoother, SurvivesWhatNoCalmFlightExpects) {
+TEST(SpeedSmoother, SurvivesASuddenStopAndAFalseSample) {
   for (const double noise : {0.2, 3.0}) {
     Speed stop, slip;
     Random random(5);
@@ -244,7 +244,7 @@ TEST(SpeedSmoother, ErrorsOfTheInputActAsTheModelSays) {
 
 // What is left of their noise rolls and pitches the vehicle in the model, not in the air. (About the yaw axis
 // it is the spin-up that counts here.)
-TEST(SpeedSmoother, ErrorsOfTheInputAreNoGusts) {
+TEST(SpeedSmoother, InputErrorsAreNotEstimatedAsGusts) {
   const Vehicle truth = testing::quad(), stated = testing::known(truth);
   const std::vector<FlightLog> logs = flights_by_noisy_speeds(truth);
   const std::vector<double> p = parameter_vector(stated);

@@ -60,7 +60,7 @@ TEST(FlightProfile, OfADeterminedConstantFollowsItsCurvatureAndIsLeastAtTheEstim
   }
 }
 
-TEST(FlightProfile, IsDrawnOfWhatIsNotIdentifiableOnly) {
+TEST(FlightProfile, IsDrawnForUnidentifiableConstantsOnly) {
   const Fitted f;
   std::vector<Parameter> parameters = flight_parameters(*f.theta, f.fit, "flightlog");
   ASSERT_TRUE(parameters[0].identifiable && parameters[1].identifiable);
@@ -119,7 +119,7 @@ TEST(HeldOutTraces, FollowTheMeasurementWithTheTrueModelAndLeaveItWithAWrongThru
   EXPECT_LT(rms(plots[0].series[2]), 0.5 * rms(plots[0].series[1]));
 }
 
-TEST(HeldOutTraces, DoNotRunOnWhereTheFlightIsCut) {
+TEST(HeldOutTraces, EndWhereTheFlightIsCut) {
   const Fitted f;
   FlightRecord cut = f.record;
   const FlightArc whole = cut.arcs[0];

@@ -37,7 +37,7 @@ void expect_known(const Result& result, const Vehicle& truth, const char* name, 
   EXPECT_TRUE(p->identifiable) << name;
 }
 
-TEST(Watched, NothingIsEstimatedThatNothingContradicts) {
+TEST(Watched, AHeldConstantStaysHeldWithoutContradiction) {
   Vehicle truth = quad(0.0);
   truth.parameters["Jp"].value = 0;
   const Result result = refined(truth, silent(truth));
@@ -57,7 +57,7 @@ TEST(Watched, RotorInertiaThatIsNotStatedIsEstimated) {
 
 // Nothing stated of the yaw, no rotor speeds: Jzz would take the place of Jp, a quarter too small and sure of
 // it, and gusts about yaw the rest.
-TEST(Watched, RotorInertiaIsAskedForAtOnceWhereNothingIsKnownOfTheYaw) {
+TEST(Watched, RotorInertiaIsFreeFromTheStartWithoutAPriorOfJzz) {
   Vehicle truth = quad(0.0);
   truth.parameters["Jp"].value = 2e-5;
   Vehicle stated = truth;
@@ -75,7 +75,7 @@ TEST(Watched, RotorInertiaIsAskedForAtOnceWhereNothingIsKnownOfTheYaw) {
 }
 
 // A vehicle whose rotors' momentum has the other sign than the model's.
-TEST(Watched, NegativeRotorInertiaMakesNothingCertainOfYaw) {
+TEST(Watched, NegativeRotorInertiaMakesYawConstantsUnidentifiable) {
   Vehicle truth = quad(0.0);
   truth.signs = Signs::as_published, truth.parameters["Jp"].value = 3e-7;  // which it can fly with
   Vehicle stated = silent(truth);
@@ -101,7 +101,7 @@ TEST(Watched, DeadTimeThatIsNotStatedIsEstimatedWhereTheFlightShowsOne) {
 }
 
 // A dead time of 60 ms looks like an offset to begin with.
-TEST(Watched, WhatIsFoundForWantOfSomethingElseIsHeldAgain) {
+TEST(Watched, AFreedConstantThatTurnsOutToBeZeroIsHeldAgain) {
   const Vehicle truth = quad(0.06);
   const FlightLog log = flight(truth, 250, 1, 20);
   const Result result = refine_flight(silent(truth), std::span(&log, 1), {.validate = false});
@@ -110,7 +110,7 @@ TEST(Watched, WhatIsFoundForWantOfSomethingElseIsHeldAgain) {
   expect_known(result, truth, "dead_time", 0.01);
 }
 
-TEST(Watched, WithoutCommandsNothingIsAskedOfMotors) {
+TEST(Watched, WithoutCommandsNoMotorConstantIsTested) {
   const Vehicle truth = quad(0.006);
   FlightLog log = flight(truth, 250, 1);
   log.delta.clear();
@@ -132,7 +132,7 @@ TEST(Watched, TenSecondsAreEnough) {
   }
 }
 
-TEST(Watched, BothAtOnceInTwoLogs) {
+TEST(Watched, OffsetAndDeadTimeAreFoundTogetherInTwoLogs) {
   Vehicle truth = quad(0.006);
   truth.parameters["Omega_0"] = {150, {}};
   const std::vector<FlightLog> logs = {flight(truth, 250, 1, 30), flight(truth, 200, 2, 30)};
@@ -144,7 +144,7 @@ TEST(Watched, BothAtOnceInTwoLogs) {
 }
 
 // The log shows commands 8 ms after they were given.
-TEST(Watched, CommandsThatComeTooLateMakeNothingCertainOfTheMotorsLag) {
+TEST(Watched, LateCommandsMakeTheMotorLagUnidentifiable) {
   const Vehicle truth = quad(0.0);
   FlightLog log = flight(truth, 250, 1);
   for (std::vector<double>& delta : log.delta) {
@@ -160,7 +160,7 @@ TEST(Watched, CommandsThatComeTooLateMakeNothingCertainOfTheMotorsLag) {
 }
 
 // Motors of which nothing is known take a delay of 20 ms for no lag, and what that leaves for an offset.
-TEST(Watched, CommandsThatComeMuchTooLateAskForNoOffset) {
+TEST(Watched, VeryLateCommandsDoNotFreeAnOffset) {
   Vehicle truth = quad(0.0);
   truth.parameters["omega_m"].value = 45, truth.parameters["zeta_m"].value = 1;
   Vehicle stated = silent(truth);
@@ -189,7 +189,7 @@ TEST(Watched, WhatIsStatedIsHeld) {
   }
 }
 
-TEST(Watched, WhatIsAskedForIsNoFinding) {
+TEST(Watched, AConstantFreedByTheUserIsNoFinding) {
   const Vehicle truth = quad(0.006);
   const Result result = refined(truth, silent(truth), {.free = {"dead_time"}, .validate = false});
   expect_known(result, truth, "dead_time", 0.03);

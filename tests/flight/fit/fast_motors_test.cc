@@ -33,7 +33,7 @@ FlightLog without_speeds(const Vehicle& v) {
   return simulate_flight(v, options).log;
 }
 
-TEST(FastMotors, ASimulationFromTheLogDoesNotRunAway) {
+TEST(FastMotors, ASimulationFromTheLogDoesNotDiverge) {
   for (const double zeta : {1.5, 5.0, 20.0, 100.0}) {
     const Vehicle truth = fast(zeta);
     const Result result =
@@ -43,7 +43,7 @@ TEST(FastMotors, ASimulationFromTheLogDoesNotRunAway) {
   }
 }
 
-TEST(FastMotors, NothingIsMissingWhereNothingIs) {
+TEST(FastMotors, NoCauseIsFoundInAFlightWithoutEffect) {
   for (const double zeta : {1.5, 20.0}) {
     const Vehicle truth = fast(zeta);
     const Diagnosis found = diagnose_gap(a_little_off(truth), std::vector<FlightLog>{without_speeds(truth)});

@@ -25,7 +25,7 @@ Vehicle without_motors(Vehicle v) {
   return v;
 }
 
-TEST(FirstOrder, OfMotorsTheLagIsKnownAndStored) {
+TEST(FirstOrder, TheLagIsIdentifiedAndStored) {
   const Vehicle vehicle = with_motors(2 * 60.0 / kLag, 60.0);
   const std::vector<FlightLog> logs{testing::flight(vehicle, 250, 3, 30)};
   const Result result = refine_flight(without_motors(vehicle), logs, {.validate = false});
@@ -40,14 +40,14 @@ TEST(FirstOrder, OfMotorsTheLagIsKnownAndStored) {
   EXPECT_NEAR(result.find("Jxx")->value / vehicle.value("Jxx"), 1.0, 0.01);
 }
 
-TEST(FirstOrder, IsNotWhatMotorsOfSecondOrderAre) {
+TEST(FirstOrder, IsNotAssumedForMotorsOfSecondOrder) {
   const std::vector<FlightLog> logs{testing::flight(testing::quad(), 250, 3, 30)};
   const Result result = refine_flight(without_motors(testing::quad()), logs, {.validate = false});
   EXPECT_FALSE(result.has_warning("first_order_motors"));
   EXPECT_NEAR(result.find("zeta_m")->value, 0.8, 0.02);
 }
 
-TEST(FirstOrder, IsNotLookedForWhereTheMotorsAreStated) {
+TEST(FirstOrder, IsNotTestedWhereTheMotorsAreStated) {
   const Vehicle vehicle = with_motors(2 * 60.0 / kLag, 60.0);
   const std::vector<FlightLog> logs{testing::flight(vehicle, 250, 3, 30)};
   const Result result = refine_flight(testing::known(vehicle), logs, {.validate = false});

@@ -15,7 +15,7 @@ namespace {
 // Two flights by a model that knows no battery, one of them on one that was down to 92 %: rotors turn slower
 // than commanded by many times the noise of their speeds. A fit that begins with its constants bends them for
 // it, and what that leaves passes for noise of every sensor.
-TEST(FlightFit, WhatIsMissingIsNotTakenForNoiseOfTheSensors) {
+TEST(FlightFit, AMissingEffectDoesNotCountAsSensorNoise) {
   const Vehicle model = testing::known(testing::quad());
   Vehicle truth = model;
   truth.battery_voltage = 8.0, truth.parameters["battery_sag.n"] = {0.6, {}};
@@ -42,7 +42,7 @@ TEST(FlightFit, WhatIsMissingIsNotTakenForNoiseOfTheSensors) {
 // Whole steps fail in the rounds of noise of this flight in gusts, and what is promised there leads to a
 // hundred times the value of Jp: with neither shorter steps nor a limit on those that nobody looks at,
 // omega_m ended 68 deviations of the bound off.
-TEST(FlightFit, AFlightWhoseWholeStepsFailEndsAtItsConstants) {
+TEST(FlightFit, ConvergesWhereFullNewtonStepsFail) {
   const flight_campaign::Outcome found =
       flight_campaign::refine_case(flight_campaign::random_case(17, {.turbulence = true}));
   const auto omega_m = std::ranges::find(found.estimates, "omega_m", &flight_campaign::Estimate::name);
@@ -51,7 +51,7 @@ TEST(FlightFit, AFlightWhoseWholeStepsFailEndsAtItsConstants) {
 }
 
 // What rounding leaves where a simulation has run away is no lower cost.
-TEST(FlightFit, NoSumOfSquaresIsLessThanNothing) {
+TEST(FlightFit, ANegativeSumOfSquaresIsRejected) {
   ReducedSystem system{.cost = 0.0, .fall = 1e4};
   system.g = Eigen::VectorXd::Ones(2), system.S = Eigen::MatrixXd::Identity(2, 2);
   for (const double cost : {5.0, 0.0, -1e-3}) {

@@ -10,7 +10,7 @@
 namespace ident {
 namespace {
 
-TEST(FlightFitSteps, OneThatChangesAConstantManyTimesIsNotTakenUnseen) {
+TEST(FlightFitSteps, ALongStepIsEvaluatedBeforeItIsTaken) {
   const Setting s;
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(s.theta.size());
   Eigen::VectorXd du = Eigen::VectorXd::Constant(s.theta.size(), 0.5);
@@ -22,7 +22,7 @@ TEST(FlightFitSteps, OneThatChangesAConstantManyTimesIsNotTakenUnseen) {
 }
 
 // Where the whole step of Newton's leads too far, the one that was asked for is a shorter one.
-TEST(FlightFitSteps, OneStepIsTakenWhereTheWholeOneFails) {
+TEST(FlightFitSteps, AShorterStepIsTakenWhereTheNewtonStepFails) {
   const Setting s;
   for (const int unknown : {2, 5, 7}) {
     Eigen::VectorXd far = Eigen::VectorXd::Zero(s.theta.size());
@@ -40,7 +40,7 @@ TEST(FlightFitSteps, OneStepIsTakenWhereTheWholeOneFails) {
 
 // Less than nothing of a sum of squares is no minimum: a real flight's steps ended with -1e58 of a fall of
 // 1e71.
-TEST(FlightFitSteps, WhatRanAwayIsNoCost) {
+TEST(FlightFitSteps, ADivergedSimulationHasNoCost) {
   ReducedSystem system{.cost = 4e5, .fall = 7.5e13, .g = Eigen::VectorXd::Zero(2)};
   system.S = Eigen::MatrixXd::Identity(2, 2);
   EXPECT_TRUE(is_finite(system));
@@ -55,7 +55,7 @@ TEST(FlightFitSteps, WhatRanAwayIsNoCost) {
 
 // Three that are known as a and b c only, so well that the last digits of what is told of them outweigh what
 // was known of b before.
-TEST(FlightFitSteps, RoundingIsNoInformation) {
+TEST(FlightFitSteps, RoundingErrorsDoNotCountAsInformation) {
   const Eigen::Vector3d a(1, 0, 0), bc(0.1, 1, 1);
   Eigen::MatrixXd information = 1e22 * (a * a.transpose() + bc * bc.transpose());
   information(1, 1) *= 1 + 1e-12;

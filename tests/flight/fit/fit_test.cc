@@ -40,7 +40,7 @@ TEST(FlightFit, NoiseFreeFlightGivesTheConstantsBack) {
 }
 
 // What is left of a fall when no evaluation is worth it is taken all the same.
-TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
+TEST(FlightFit, TheLastStepIsTakenWithoutAnEvaluation) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
@@ -61,7 +61,7 @@ TEST(FlightFit, TheLastStepIsTakenWithoutALook) {
 }
 
 // A filter's position is so smooth that its differences show next to no noise.
-TEST(FlightFit, AChannelThatSeemsToHaveNoNoiseDoesNotSpoilTheOthers) {
+TEST(FlightFit, AChannelWithoutNoiseDoesNotSpoilTheOthers) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
@@ -78,7 +78,7 @@ TEST(FlightFit, AChannelThatSeemsToHaveNoNoiseDoesNotSpoilTheOthers) {
         << theta.constants()[static_cast<std::size_t>(i)].name;
 }
 
-TEST(FlightFit, LongStepsServeWhereTheyDoNotShow) {
+TEST(FlightFit, LongIntegrationStepsAreUsedWhereTheyMakeNoDifference) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   const std::vector<double> p = parameter_vector(vehicle);
   SimulationOptions simulated;
@@ -101,7 +101,7 @@ TEST(FlightFit, LongStepsServeWhereTheyDoNotShow) {
   }
 }
 
-TEST(FlightFit, ACalmLogIsNotTakenForAGustyOne) {
+TEST(FlightFit, ACalmLogGetsItsOwnNoiseBesideAGustyOne) {
   const Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   SimulationOptions options;
   options.duration = 20.0;
@@ -143,7 +143,7 @@ FlightLog pushed(const SimulatedFlight& flight, GustAxes axes) {
   return log;
 }
 
-TEST(FlightFit, GustsGetTheAxesThatTheyHave) {
+TEST(FlightFit, TheAxesOfGustsAreFound) {
   Vehicle vehicle = read_vehicle(IDENT_SOURCE_DIR "/data/published/phang_4sp_feasible.yaml");
   SimulationOptions options;
   options.duration = 30.0;

@@ -30,7 +30,7 @@ TEST(Hover, HoldsWhatNeedsMotion) {
   EXPECT_EQ(*named(held, "kT").prior_std, *named(before, "kT").prior_std);
 }
 
-TEST(Hover, WhatWasStatedMayBeOffByItsDeviationInADiagnosis) {
+TEST(Hover, ADiagnosisKeepsStatedConstantsFreeWithinTheirPrior) {
   const std::vector<FreeConstant> before = constants_of_a_quad();
   std::vector<FreeConstant> held = before;
   EXPECT_EQ(std::ranges::count(hold_for_hover(held, Held::unstated), "Jzz"), 1)

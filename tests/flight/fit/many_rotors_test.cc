@@ -13,7 +13,7 @@ namespace {
 // comes from the bench. With all stated to a tenth, and kT km^2, kQ km^2 and Jp km told exactly,
 //   std(km)/km = 0.1/sqrt(1 + 4 + 4 + 1) = 0.0316 ,  std(kT)/kT = 2 std(km)/km
 // whatever the number of rotors.
-TEST(ManyRotors, WithoutSpeedsTheirScaleIsAsOpenAsThatOfFour) {
+TEST(ManyRotors, WithoutSpeedsTheirScaleIsNotDetermined) {
   for (const int rotors : {4, 6, 8}) {
     const Vehicle truth = testing::ring_of_rotors(rotors);
     SimulationOptions options;

@@ -39,13 +39,13 @@ double std_of(const MatrixXd& V, const VectorXd& combination) {
 
 const MatrixXd kOne = MatrixXd::Identity(3, 3);
 
-TEST(Colour, OfWhiteResidualsIsHardlyAny) {
+TEST(Colour, WhiteResidualsHardlyChangeTheCovariance) {
   const MatrixXd F = Eigen::Vector3d(4, 9, 1).asDiagonal(), S = (F + 0.01 * kOne).inverse();
   const MatrixXd V = corrected_for_colour(S, F, blocks_of(F, kOne, 400));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(V(i, i) / S(i, i)), 1.03, 0.05);
 }
 
-TEST(Colour, OfScoresThatScatterMoreWidensWhatTheyTell) {
+TEST(Colour, ScatteringScoresWidenTheDirectionsTheyDetermine) {
   const MatrixXd F = Eigen::Vector3d(4, 9, 1).asDiagonal(), S = (F + 0.01 * kOne).inverse();
   const MatrixXd V = corrected_for_colour(S, F, blocks_of(F, 4 * kOne, 400));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(V(i, i) / S(i, i)), 2.0, 0.2);
@@ -57,7 +57,7 @@ TEST(Colour, OfScoresThatScatterMoreWidensWhatTheyTell) {
 
 // x + y is known to a thousandth, each of them by the prior alone; z goes with them as (x + y) z. Colour
 // of 1.3 squared makes the sum 1.3 times as wide, and leaves x and y what they were.
-TEST(Colour, AValleyStaysStraight) {
+TEST(Colour, CorrelationsArePreserved) {
   Eigen::Vector3d sum(1, 1, 0), with_z(1, 1, -1);
   const MatrixXd F = 1e6 * (sum * sum.transpose() + 4 * with_z * with_z.transpose()),
                  S = (F + kOne).inverse();
@@ -68,7 +68,7 @@ TEST(Colour, AValleyStaysStraight) {
 }
 
 // Two constants that the bench knows by their difference, and a flight full of colour.
-TEST(Colour, NoCombinationIsKnownWorseThanBefore) {
+TEST(Colour, NoCombinationIsWorseThanItsPrior) {
   MatrixXd C{{1, 0.99, 0}, {0.99, 1, 0}, {0, 0, 1}};
   const MatrixXd prior = C.inverse();
   const Eigen::Vector3d difference(1, -1, 0);
@@ -83,13 +83,13 @@ TEST(Colour, NoCombinationIsKnownWorseThanBefore) {
   }
 }
 
-TEST(Colour, OfFewBlocksIsNotKnown) {
+TEST(Colour, FewBlocksLeaveTheCovarianceUnchanged) {
   const MatrixXd F = kOne, S = (F + 0.01 * kOne).inverse();
   EXPECT_EQ(corrected_for_colour(S, F, blocks_of(F, 9 * kOne, 7)), S);
 }
 
 // Nothing told, and scores that do not differ at all.
-TEST(Colour, OfNothingIsNothing) {
+TEST(Colour, NoInformationLeavesTheCovarianceUnchanged) {
   const MatrixXd none = MatrixXd::Zero(3, 3);
   EXPECT_EQ(corrected_for_colour(kOne, none, blocks_of(none, kOne, 40)), kOne);
   std::vector<ScoreBlock> alike = blocks_of(kOne, kOne, 40);

@@ -100,7 +100,7 @@ TEST(FlightKernel, SlopesOfTheStartHoldWithAPushThatTurnsWithTheBody) {
   expect_true_slopes(task);
 }
 
-TEST(FlightKernel, SlopesOfTheStartHoldWithErrorsOfWhatIsShown) {
+TEST(FlightKernel, SlopesOfTheStartHoldWithSlowErrors) {
   Setting s;
   for (int& at : s.record.layout.shown_error)
     at = std::exchange(s.record.layout.size, s.record.layout.size + 3);

@@ -9,7 +9,7 @@
 namespace ident {
 namespace {
 
-TEST(FlightKernel, EveryInstructionSetSaysTheSame) {
+TEST(FlightKernel, EveryInstructionSetGivesTheSame) {
   Setting s;
   std::vector<double> constants;
   const ChunkTask task = s.task(Eigen::VectorXd::Constant(s.theta.size(), 0.01), constants);
@@ -113,7 +113,7 @@ TEST(FlightKernel, ExactSlopesAgreeWithQuickOnes) {
 
 // Long steps pass rows, prompt ones and those that a delay shifts; none is lost, and what is predicted there
 // is what steps from row to row predict.
-TEST(FlightKernel, LongStepsSeeTheRowsThatTheyPass) {
+TEST(FlightKernel, LongStepsPredictTheRowsWithinThem) {
   Setting s;
   std::vector<double> constants;
   for (const double shift : {0.0, 0.0153}) {

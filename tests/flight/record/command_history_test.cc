@@ -59,7 +59,7 @@ TEST(CommandHistory, IsHeldWhereALogHasNoUsualStepAndOverALongHole) {
   EXPECT_NEAR(command_at(at_times(hole), 0.55), ramp(0.40), 1e-12);
 }
 
-TEST(CommandHistory, OfPartOfALogIsWhatItIsThere) {
+TEST(CommandHistory, OfPartOfALogEqualsThatOfTheWhole) {
   const FlightLog log = at_times(hundredths(100));
   const HeldCommand part = command_history(log, 0.305, 0.6)[0];
   EXPECT_NEAR(part.at(0.306), ramp(0.30), 1e-12);
@@ -91,7 +91,7 @@ FlightLog with_losses(const FlightLog& log, int losses, double longest) {
 }
 
 // Of both kinds: many short holes, and so many long ones that half of the flight is gone.
-TEST(CommandHistory, OfALogWithHolesMotorsAndInertiaComeOutRight) {
+TEST(CommandHistory, ALogWithHolesGivesUnbiasedMotorsAndInertia) {
   const Vehicle vehicle = testing::known(testing::quad());
   FlightLog whole = testing::flight(testing::quad(), 250, 3, 40);
   whole.Omega.clear();

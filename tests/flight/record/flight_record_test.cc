@@ -17,7 +17,7 @@ namespace {
 
 // km is one for all logs, and so is the voltage at which it holds: a flight begun on a half empty pack is a
 // sagged one.
-TEST(FlightRecord, SagIsCountedFromOneVoltageForAllLogs) {
+TEST(FlightRecord, AllLogsShareOneReferenceVoltage) {
   Vehicle vehicle = random_vehicle(1);
   vehicle.battery_voltage.reset();
   SimulationOptions options;
@@ -51,7 +51,7 @@ TEST(FlightRecord, LogsWithAndWithoutCommandsAreNotMixed) {
 }
 
 // Motors nearly off: for a moment that is flown, for longer it is the ground.
-TEST(FlightRecord, APushOverIsFlownAndAStopIsNot) {
+TEST(FlightRecord, AShortPushOverBelongsToFlightAndALandingDoesNot) {
   const Vehicle vehicle = random_vehicle(3);
   SimulationOptions options;
   options.duration = 10, options.rate = 100, options.longest_step = 0;

@@ -90,7 +90,7 @@ TEST(FlightPrior, SlopesRootAndStepsAreThoseOfItsCost) {
 
 // As far as a fifth and a tenth go: along the product that is known it costs what each alone does, 4 standard
 // deviations across it.
-TEST(FlightPrior, AProductThatIsKnownIsAStraightValley) {
+TEST(FlightPrior, AKnownProductIsALineInLogarithms) {
   const Theta theta = theta_of(known_together());
   const int T = slot(theta, "kT"), M = slot(theta, "km");
   const double before = theta.prior(VectorXd::Zero(theta.size())).cost();
@@ -102,7 +102,7 @@ TEST(FlightPrior, AProductThatIsKnownIsAStraightValley) {
 }
 
 // As a wrong value that is freed of what was stated of it: it must not be held by its partner.
-TEST(FlightPrior, OneThatIsLoosenedIsHeldByNothing) {
+TEST(FlightPrior, ALoosenedUnknownIsIndependentOfTheOthers) {
   const Theta theta = theta_of(known_together());
   const int T = slot(theta, "kT"), M = slot(theta, "km"), W = slot(theta, "omega_m"),
             D = slot(theta, "dead_time");
@@ -119,7 +119,7 @@ TEST(FlightPrior, OneThatIsLoosenedIsHeldByNothing) {
 }
 
 // The same of constants: one that is held where it was stated leaves what is known of the others as it was.
-TEST(FlightPrior, OneThatIsKnownAlonePullsNoOther) {
+TEST(FlightPrior, AnUncorrelatedUnknownPullsNoOther) {
   const Vehicle v = known_together();
   const std::vector<double> p = parameter_vector(v);
   std::vector<FreeConstant> constants = free_constants(v, p);
@@ -136,7 +136,7 @@ TEST(FlightPrior, OneThatIsKnownAlonePullsNoOther) {
 }
 
 // Where nothing goes together worth the name, priors are as they were: normal in their values.
-TEST(FlightPrior, AWeakPairMakesNoLogarithms) {
+TEST(FlightPrior, AWeakCorrelationKeepsPhysicalCoordinates) {
   Vehicle v = known_together();
   v.correlation = {{"kT", "km"}, Eigen::Matrix2d{{1, 1e-5}, {1e-5, 1}}};
   const Theta theta = theta_of(v);
@@ -146,7 +146,7 @@ TEST(FlightPrior, AWeakPairMakesNoLogarithms) {
 }
 
 // Constants that a log has no say in are left out: what remains is known as it was with them.
-TEST(FlightPrior, WhatIsLeftOutTakesNothingAlong) {
+TEST(FlightPrior, RemovingConstantsLeavesTheOtherPriorsUnchanged) {
   const Vehicle v = known_together();
   const std::vector<double> p = parameter_vector(v);
   std::vector<FreeConstant> constants = free_constants(v, p);
@@ -157,7 +157,7 @@ TEST(FlightPrior, WhatIsLeftOutTakesNothingAlong) {
   EXPECT_NEAR(theta.prior(u).information()(T, T), 25.0, 1e-9);
 }
 
-TEST(FlightPrior, NothingIsKnownBetterThanRoundingAllows) {
+TEST(FlightPrior, InverseCorrelationIsBoundedByRounding) {
   const MatrixXd inverse = inverse_correlation(MatrixXd{{1, 1}, {1, 1}});
   EXPECT_TRUE(inverse.allFinite());
   EXPECT_NEAR(inverse(0, 0), 0.5e10, 1e4);
@@ -166,7 +166,7 @@ TEST(FlightPrior, NothingIsKnownBetterThanRoundingAllows) {
 // Two logs one after the other, the first stored and read in between, tell what both tell at once. Without
 // rotor speeds kT km^2 is known and nothing alone, and that as well as the mass; by their deviations only,
 // the mass that the first log was weighed with would count a second time.
-TEST(FlightPrior, OneLogAfterTheOtherTellsWhatBothTell) {
+TEST(FlightPrior, SequentialRefinementEqualsJointRefinement) {
   const Vehicle truth = testing::quad();
   Vehicle stated = testing::known(truth);
   for (const char* name : {"kT", "kQ", "km"}) stated.parameters[name].value *= 1.04;
@@ -201,7 +201,7 @@ TEST(FlightPrior, OneLogAfterTheOtherTellsWhatBothTell) {
 
 // kT km^2 of an earlier flight is 6 % off, thirty of its deviations: neither of the two is,
 // by what is known of it alone. Both are named, with each other; what neither has to do with is not.
-TEST(FlightPrior, AProductThatIsContradictedIsNamedByBoth) {
+TEST(FlightPrior, AContradictedProductIsReportedForBothConstants) {
   const Vehicle truth = testing::quad();
   Vehicle stated = known_together();
   stated.parameters["kT"] = {1.06 * truth.value("kT"), 1.06 * 0.2 * truth.value("kT")};

@@ -22,7 +22,7 @@ struct Gusty {
 };
 
 // States that are taken over lie where the other smoother has them, also where chunks begin elsewhere.
-TEST(FlightSmoother, StatesAreTakenOverToOtherChunks) {
+TEST(FlightSmoother, TakesOverStatesOfASmootherWithOtherChunks) {
   const Gusty flight(8.0);
   const auto& [vehicle, p, logs, record, theta, u] = flight;
   FlightSmoother one(record, theta, initial_noise(record), 0.1), other(record, theta, one.noise(), 0.15);
@@ -44,7 +44,7 @@ TEST(FlightSmoother, StatesAreTakenOverToOtherChunks) {
 
 // Gross errors bend the cost, and each step to and fro promises a fall that none keeps: the rounds end all
 // the same, at states that no further round betters.
-TEST(FlightSmoother, RoundsInVainEnd) {
+TEST(FlightSmoother, SettlingEndsWhenRoundsNoLongerLowerTheCost) {
   const Vehicle vehicle = testing::published_vehicle();
   SimulationOptions options;
   options.duration = 8.0, options.rate = 100.0;
@@ -64,7 +64,7 @@ TEST(FlightSmoother, RoundsInVainEnd) {
 
 // The last step is theirs: where states end is known a round before they are there, and not earlier where
 // rounds lead there slowly.
-TEST(FlightSmoother, EndsAreKnownARoundEarlierAndAsWell) {
+TEST(FlightSmoother, SettlingForArcEndsGivesTheEndsOfFullConvergence) {
   for (const bool few_sensors : {false, true}) {
     Gusty flight(8.0);
     if (few_sensors) {
@@ -91,7 +91,7 @@ TEST(FlightSmoother, EndsAreKnownARoundEarlierAndAsWell) {
 
 // In a search chunks are twice as long as no gust within them shows, and none shorter than a tenth of a
 // second.
-TEST(FlightSmoother, ChunksOfASearchAreTwiceAsLong) {
+TEST(FlightSmoother, ChunksOfASearchAreTwiceAsLongAsThoseOfARefinement) {
   const Gusty flight(3.0);
   NoiseModel noise = initial_noise(flight.record);
   for (const double gust : {0.01, 0.1, 1.0, 10.0}) {
@@ -103,7 +103,7 @@ TEST(FlightSmoother, ChunksOfASearchAreTwiceAsLong) {
 
 // Steps of lower order push the vehicle a little. In gusts that is nothing; where there are none it would
 // pass for what acts on it.
-TEST(FlightSmoother, WhatStepsPushShowsInStillAir) {
+TEST(FlightSmoother, IntegrationErrorShowsInStillAir) {
   const Gusty flight(8.0);
   FlightSmoother smoother(flight.record, flight.theta, initial_noise(flight.record), 0.1);
   smoother.set_steps(Steps::coarse);
@@ -122,7 +122,7 @@ TEST(FlightSmoother, WhatStepsPushShowsInStillAir) {
 }
 
 // The same by the density of the process, axis by axis.
-TEST(FlightSmoother, WhatStepsPushIsJudgedByTheProcessOfGusts) {
+TEST(FlightSmoother, IntegrationErrorIsWeightedByTheProcessNoise) {
   const Gusty flight(4.0);
   FlightSmoother smoother(flight.record, flight.theta, initial_noise(flight.record), 0.1);
   constexpr double sigma = 0.02, tau = 0.3;
@@ -158,7 +158,7 @@ TEST(FlightSmoother, WhatStepsPushIsJudgedByTheProcessOfGusts) {
 
 // Slow gusts, of which the time says little: their noise and that time follow each other, to and fro unless
 // steps become shorter.
-TEST(FlightSmoother, SlowGustsLeadTheirNoiseNotInCircles) {
+TEST(FlightSmoother, NoiseEstimateOfSlowGustsConverges) {
   const Gusty flight(30.0);
   const auto& [vehicle, p, logs, record, theta, u] = flight;
   FlightSmoother smoother(record, theta, initial_noise(record), 0.05);
@@ -174,7 +174,7 @@ TEST(FlightSmoother, SlowGustsLeadTheirNoiseNotInCircles) {
 
 // Motors that do as they are commanded: what noise of theirs is left below the floor of the links is none,
 // and takes no rounds to become less and less.
-TEST(FlightSmoother, NoiseOfMotorsBelowTheFloorIsNone) {
+TEST(FlightSmoother, MotorNoiseBelowTheFloorIsEstimatedAsZero) {
   const Gusty flight(20.0);
   const auto& [vehicle, p, logs, measured, theta, u] = flight;
   std::vector<FlightLog> unmeasured = logs;
@@ -189,7 +189,7 @@ TEST(FlightSmoother, NoiseOfMotorsBelowTheFloorIsNone) {
 }
 
 // What speeds and rates hardly tell of it does not stay where it was begun, to stand in for other noise.
-TEST(FlightSmoother, NoiseOfMotorsThatHardlyShowsIsNone) {
+TEST(FlightSmoother, MotorNoiseThatTheDataHardlyDetermineIsEstimatedAsZero) {
   const Gusty flight(20.0);
   const auto& [vehicle, p, logs, record, theta, u] = flight;
   NoiseModel noise = initial_noise(record);
@@ -202,7 +202,7 @@ TEST(FlightSmoother, NoiseOfMotorsThatHardlyShowsIsNone) {
 
 // The noise that makes a flight most likely does not depend on how often the shared unknowns are found anew
 // on the way there.
-TEST(FlightSmoother, NoiseIsTheSameWithTheSharedUnknownsHeldForSomeRounds) {
+TEST(FlightSmoother, HoldingTheSharedUnknownsForSomeRoundsGivesTheSameNoise) {
   Vehicle vehicle = testing::published_vehicle();
   SimulationOptions options;
   options.duration = 20.0, options.rate = 100.0, options.turbulence = 0.5;

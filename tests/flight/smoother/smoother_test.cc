@@ -43,7 +43,7 @@ TEST(FlightSmoother, ConstantProfileTakesUpTheMomentOfAnOffCentreMass) {
 
 // Six rotors, no speeds: as rotors change against each other the motion tells nothing of it, and what is
 // known of the rest keeps its digits all the same.
-TEST(FlightSmoother, SixRotorsWithoutSpeedsAreAsGoodAsWithThem) {
+TEST(FlightSmoother, SixRotorsWithoutMeasuredSpeedsConvergeToTheNoise) {
   Vehicle vehicle = small_quad();
   vehicle.rotors.clear();
   for (int n = 0; n < 6; ++n) {
@@ -74,7 +74,7 @@ TEST(FlightSmoother, SixRotorsWithoutSpeedsAreAsGoodAsWithThem) {
 
 // Without rotor speeds only kT km^2, kQ km^2 and Jp km can be known: along what they leave open neither the
 // cost nor its gradient may change, whatever the motors' states take up of the noise.
-TEST(FlightSmoother, UnmeasuredRotorSpeedsAreFreeOfScale) {
+TEST(FlightSmoother, TheScaleOfUnmeasuredRotorSpeedsIsNotDetermined) {
   Vehicle vehicle = testing::published_vehicle();
   for (const char* name : {"kT", "kQ", "km", "Jp"})
     vehicle.parameters[name] = {vehicle.value(name), 0.1 * vehicle.value(name)};
@@ -211,7 +211,7 @@ TEST(FlightSmoother, BlocksAddUpToTheReducedSystemLinkedUnlinkedAndWithProfiles)
 
 // What is known of the last state comes from the last seconds, however much flight there was before: a long
 // chain, whose ends meet in its middle, knows it as a short one does that is eliminated up to it.
-TEST(FlightSmoother, TheEndOfALongChainIsKnownAsThatOfAShortOne) {
+TEST(FlightSmoother, TheEndOfALongChainEqualsThatOfItsLastPart) {
   Vehicle vehicle = testing::published_vehicle();
   SimulationOptions options;
   options.duration = 12.0, options.rate = 100.0, options.turbulence = 0.5;
@@ -234,7 +234,7 @@ TEST(FlightSmoother, TheEndOfALongChainIsKnownAsThatOfAShortOne) {
 
 // The last step of states is taken without a look at where it leads; where an arc ends moves with it. Here it
 // is the first one, from what was measured.
-TEST(FlightSmoother, TheEndMovesWithTheStepThatIsNotLookedAt) {
+TEST(FlightSmoother, ArcEndsFollowTheLastUnevaluatedStep) {
   const Vehicle vehicle = testing::published_vehicle();
   SimulationOptions options;
   options.duration = 4.0, options.rate = 100.0, options.turbulence = 0.5;

@@ -59,7 +59,7 @@ TEST(FlightTrim, WithTheRotorsAsTheyAreEverythingBalances) {
 }
 
 // Noise of the path makes every acceleration look larger than it is.
-TEST(FlightTrim, NoiseOfThePathAsksForNoThrust) {
+TEST(FlightTrim, NoiseOfThePathDoesNotBiasThrust) {
   const Vehicle truth = testing::upright();
   FlightLog log = path_only(truth, 3, {.seconds = 40.0, .noise = "none", .velocity = false});
   Random random(1);
@@ -115,13 +115,13 @@ TEST(FlightTrim, IntervalsHoldTheRotorsOfTheNextFlight) {
   EXPECT_LT(width, 0.035) << "0.02 sqrt(4/3) if the scatter were known";
 }
 
-TEST(FlightTrim, AFlightOfAMomentIsTooShort) {
+TEST(FlightTrim, AVeryShortFlightIsRefused) {
   const Vehicle stated = testing::upright();
   const std::vector<FlightLog> logs{path_only(stated, 1, {.seconds = 4.0})};
   EXPECT_THROW(refine_flight(stated, logs), DataError);
 }
 
-TEST(FlightTrim, VerificationTellsTheBalanceOfTheModelAsStated) {
+TEST(FlightTrim, VerificationReportsTheBalanceOfTheStatedModel) {
   const Vehicle stated = testing::upright();
   const std::vector<FlightLog> logs{path_only(with_ratios(stated, {0.9, 1, 1.1, 1}), 1)};
   const Result result = verify_flight(stated, logs);

@@ -18,8 +18,8 @@ struct InertiaOptions {
 /// Repeated rows tell the noise; a column `std` states it. Throws DataError when no row has a vehicle axis.
 Result estimate_inertia(const std::vector<NumberTable>& tables, const InertiaOptions& options = {});
 
-/// Inertia of a propeller about its shaft as a rectangular plate (MODEL: Jp = m (chord^2 + length^2)/12).
-/// It has no standard deviation: how far a blade is from a plate is not in these numbers.
+/// Inertia of a propeller about its shaft as a rectangular plate: Jp = m (chord^2 + length^2)/12. It has no
+/// standard deviation, because the difference of a blade from a plate is not in these numbers.
 Parameter propeller_inertia(double mass, double chord, double length);
 
 }  // namespace ident

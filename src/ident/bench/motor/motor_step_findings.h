@@ -7,7 +7,8 @@
 
 namespace ident {
 
-/// Marks what the data do not determine and names the combination that they do: warning `not_separable`.
+/// Marks constants that the data do not determine, and names the combination that they do: warning
+/// `not_separable`.
 void judge_separability(Result& result, const StepResponse& response);
 
 /// Fits edges down apart from edges up: extra `spin`, warning `spin_asymmetry` where they differ.

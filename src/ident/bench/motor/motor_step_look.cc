@@ -1,4 +1,4 @@
-// Undriven stretches against the driven rows; arrival times against even times.
+// Compares undriven stretches with driven rows, and arrival times with even times.
 #include "ident/bench/motor/motor_step_look.h"
 
 #include <fmt/format.h>

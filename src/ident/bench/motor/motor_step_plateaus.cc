@@ -1,4 +1,4 @@
-// Plateaus from edges; how long the motor takes, and which rows come long after that.
+// Finds plateaus between edges, the settling time of the motor, and rows long after it.
 #include "ident/bench/motor/motor_step_plateaus.h"
 
 #include <algorithm>

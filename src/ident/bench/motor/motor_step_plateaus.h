@@ -16,8 +16,8 @@ struct Plateau {
 
 std::vector<Plateau> plateaus_of(const StepRecord& record);
 
-/// Leaves out rows long after the speed has settled (many times the time that the motor took), where a
-/// recording has thousands of rows: they say what the level is, once more. Returns how many were left out.
+/// Leaves out rows long after the speed has settled (many times the settling time) where a recording has
+/// thousands of them: they repeat the level of the plateau. Returns how many were left out.
 std::size_t leave_out_settled_rows(std::vector<StepRecord>& records);
 
 }  // namespace ident

@@ -1,4 +1,4 @@
-// Which rows are not driven, and records without them.
+// Finds rows in which the motor is not driven, and makes records without them.
 #include "ident/bench/motor/motor_step_undriven.h"
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 
 namespace ident {
 
-/// Rows [begin, end) of a record. The equation of the motor is that of a speed controller at work: it need
-/// not hold while a command of nothing lets the motor coast, nor while a standing motor is brought to turn.
+/// Rows [begin, end) of a record in which the motor is not driven. Its equation is that of a speed controller
+/// at work. It need not hold while a command of 0 lets the motor coast, nor while a standing motor starts.
 struct UndrivenStretch {
   enum class Kind {
     coasting,   ///< the command means "off": it is not above 0, or the motor stands at its end

@@ -1,4 +1,4 @@
-// Numbers and curves around the slant angle.
+// Tables and curves of the slant angle.
 #include "ident/bench/slant/slant_tables.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Two linear fits for each reading of the current column.
+// Fits the DC motor by two linear fits, for each reading of the current column.
 #include "ident/bench/thrust/dc_motor.h"
 
 #include <algorithm>

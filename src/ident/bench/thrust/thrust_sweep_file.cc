@@ -1,4 +1,4 @@
-// One table from rows to constants.
+// Analyses one sweep file, from its rows to the constants.
 #include "ident/bench/thrust/thrust_sweep_file.h"
 
 #include <algorithm>

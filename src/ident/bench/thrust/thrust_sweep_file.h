@@ -1,4 +1,4 @@
-// Everything that one sweep says.
+// The results of one sweep file.
 #pragma once
 
 #include <optional>

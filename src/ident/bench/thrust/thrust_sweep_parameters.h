@@ -7,7 +7,7 @@
 
 namespace ident {
 
-/// Covariance of kT and kQ, over files weighted as they are pooled; some may have no torque.
+/// Covariance of kT and kQ over files, weighted as they are pooled; some files may have no torque.
 double thrust_torque_covariance(const std::vector<SweepFile>& files);
 
 /// kT, kQ, CT, CQ, figure_of_merit, km, Omega_0 and the motor's constants, with the warnings that come with

@@ -1,4 +1,4 @@
-// From rows to steady points; sign by slope.
+// Makes steady points of rows, and turns the sign where the file shows forces negative.
 #include "ident/bench/thrust/thrust_sweep_points.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// From a table to the rows of a sweep.
+// Makes the rows of a sweep from a table.
 #include "ident/bench/thrust/thrust_sweep_rows.h"
 
 #include <fmt/format.h>

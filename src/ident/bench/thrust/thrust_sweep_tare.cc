@@ -1,4 +1,4 @@
-// Stays at rest, weighted by what is known of each, and the broken line through them.
+// The tare as a broken line through the stays at rest, each weighted by its uncertainty.
 #include "ident/bench/thrust/thrust_sweep_tare.h"
 
 #include <algorithm>

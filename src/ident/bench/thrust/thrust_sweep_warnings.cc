@@ -1,4 +1,4 @@
-// What is worth saying about a sweep.
+// Warnings about one sweep.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Products and triangular solutions of small dense matrices that are kept row by row, by the best instruction
-// set of this machine: the elimination of states spends most of its time in them.
+// Products and triangular solutions of small dense matrices stored by rows, by the best instruction set of
+// this machine. The elimination of states spends most of its time in them.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace ident {
 
-/// Columns are handled in groups of so many: rows are padded to a multiple of it, and what pads is zero.
+/// Columns are handled in groups of this size: rows are padded to a multiple of it with zeros.
 inline constexpr int kRowPad = 8;
 constexpr int padded(int columns) { return (columns + kRowPad - 1) / kRowPad * kRowPad; }
 
@@ -25,7 +25,8 @@ struct ConstRows {
 struct DenseRows {
   /// C += sign A'B: `inner` rows of A and B, `rows` of C.
   void (*add_products)(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign);
-  /// The same where C is symmetric over its rows: what is left of the diagonal is none of it, or not whole.
+  /// The same where C is symmetric: only its upper triangle is complete; what is left of the diagonal is
+  /// partly or not computed.
   void (*add_upper)(Rows C, ConstRows A, int rows, ConstRows B, int columns, int inner, double sign);
   /// L^-1 R in place of R, with L lower triangular, n x n.
   void (*forward)(ConstRows L, int n, Rows R, int columns);
@@ -33,11 +34,11 @@ struct DenseRows {
   void (*backward)(ConstRows L, int n, Rows R, int columns);
   /// C = diag(weights) B.
   void (*scale)(Rows C, const double* weights, ConstRows B, int rows, int columns);
-  /// C += B, of any number of columns.
+  /// C += B, with any number of columns.
   void (*add)(Rows C, ConstRows B, int rows, int columns);
 };
 
-/// The best of this machine.
+/// The implementation for the best instruction set of this machine.
 const DenseRows& dense_rows();
 
 /// By name, for tests: baseline, avx2, avx512. Null when the machine lacks it.

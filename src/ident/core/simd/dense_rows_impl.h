@@ -1,5 +1,5 @@
-// Dense products over packs of `Isa::kWidth` doubles; templated so that each instruction set has its own.
-// Loops over packs are unrolled by order: else GCC keeps the sums in memory at -O2.
+// Dense products over packs of `Isa::kWidth` doubles, templated so that each instruction set has its own.
+// Loops over packs are unrolled explicitly: otherwise GCC keeps the sums in memory at -O2.
 #pragma once
 
 #include "ident/core/simd/dense_rows.h"
@@ -15,7 +15,7 @@ class DenseRowsOf {
   static constexpr int kWidth = Isa::kWidth;
   typedef double Pack __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
 
-  // The pack of that number from x on.
+  // Pack number i, counted from x.
   static const Pack& at(const double* x, int pack) {
     return *reinterpret_cast<const Pack*>(x + std::ptrdiff_t{pack} * kWidth);
   }
@@ -35,7 +35,7 @@ class DenseRowsOf {
     for (; j < columns; j += kWidth) panel<1>(C, A, above(j + kWidth), B, j, inner, sign);
   }
 
-  // J packs of columns from `column` on.
+  // J packs of columns, starting at `column`.
   template <int J>
   static void panel(Rows C, ConstRows A, int rows, ConstRows B, int column, int inner, double sign) {
     int i = 0;
@@ -62,7 +62,7 @@ class DenseRowsOf {
       for (int j = 0; j < J; ++j) at(C.data + (row + i) * C.stride + column, j) += sign * sum[i][j];
   }
 
-  // Packs of columns that are solved together: sums that do not wait for each other.
+  // Number of packs of columns that are solved together, so that sums do not wait for each other.
   static constexpr int kFew = kRowPad / kWidth, kMany = kFew < 4 ? 4 * kFew : 2 * kFew;
 
   static void forward(ConstRows L, int n, Rows R, int columns) {

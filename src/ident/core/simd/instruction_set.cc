@@ -1,4 +1,4 @@
-// Asks the processor.
+// Asks the processor which instruction sets it has.
 #include "ident/core/simd/instruction_set.h"
 
 namespace ident {

@@ -1,4 +1,4 @@
-// What this machine can run.
+// Which instruction sets this machine can run.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@ namespace ident {
 /// Whether code built for that instruction set runs here: baseline, avx2, avx512.
 bool runs_here(std::string_view isa);
 
-/// The best of those.
+/// The best instruction set that runs here.
 std::string_view best_isa();
 
 }  // namespace ident

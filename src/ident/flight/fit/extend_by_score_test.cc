@@ -1,4 +1,4 @@
-// Omega_0, dead_time and Jp beside the constants of a fit.
+// Score tests of Omega_0, dead_time and Jp, and the fits that follow from them.
 #include "ident/flight/fit/extend_by_score_test.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kBeyondDoubt = 25.0;       // squared standard deviations, or fall of the cost
-constexpr double kBeyondDoubtOfYaw = 16.0;  // for Jp, which none of 56 flights without effect asks for then
+constexpr double kBeyondDoubtOfYaw = 16.0;  // for Jp: none of 56 flights without effect reached it
 constexpr double kByChance = 2.0;           // standard deviations
 
-// The unknowns of one fit as those of another with the same logs; constants that are new there stand at 0.
+// The unknowns of one fit in the order of another one with the same logs; constants that are new there are 0.
 VectorXd carried(const FittedFlight& one, const Theta& to) {
   VectorXd u = VectorXd::Zero(to.size());
   const int from = one.theta->constants_count(), count = to.constants_count();
@@ -43,9 +43,8 @@ bool is_negative(const FittedFlight& flight, const std::string& name) {
   return false;
 }
 
-// That of `names` among the watched constants which the logs contradict most, if any by more than
-// `beyond_doubt` squared standard deviations: one Newton step from the fit with that one free, against its
-// spread over blocks of time.
+// The watched constant among `names` that the logs contradict most, if by more than `beyond_doubt` squared
+// standard deviations.
 std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit,
                                         const std::vector<std::string>& names, double beyond_doubt) {
   std::optional<std::string> found;
@@ -59,7 +58,7 @@ std::optional<std::string> contradicted(const Theta& theta, const FlightFit& fit
   return found;
 }
 
-// A fit, and the watched constants that it had to free on the way.
+// A fit with the watched constants that it had to free.
 class WatchedFit {
  public:
   WatchedFit(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
@@ -71,10 +70,11 @@ class WatchedFit {
         result_(result),
         watched_(options.watched) {
     fit_options_.progress = options.progress;
-    fit_options_.steps = Steps::longest;  // on the way to its exact end
+    fit_options_.steps = Steps::longest;  // until its exact end
   }
 
-  // Where nothing flies with the constants that nobody states as they are held, with one of them free.
+  // The first fit. Where the simulation diverges with all watched constants held, one of them is freed at
+  // once.
   void begin(std::vector<FreeConstant> constants) {
     for (const FreeConstant& c : constants) base_.push_back(c.name);
     const bool at_once = is_in(watched_, kRotor) && asks_at_once(constants, vehicle_, record_);
@@ -91,7 +91,7 @@ class WatchedFit {
     }
   }
 
-  // Frees or holds one more; whether there was anything to change.
+  // Frees or holds one constant; returns whether anything changed.
   bool step() {
     if (const auto name = against(false)) {
       free(*name);
@@ -180,8 +180,8 @@ class WatchedFit {
                                      "of what depends on it nothing certain is said");
   }
 
-  // What stays for the whole flight passes for a gust once noise is that strong: anew, for that noise would
-  // hide the offset again.
+  // A push that lasts for the whole flight counts as gusts once the noise is that strong. So start anew: that
+  // noise would hide the offset again.
   void try_offset() {
     std::vector<std::string> more = found_and(kOffset);
     auto other = refitted(more, false);
@@ -192,8 +192,8 @@ class WatchedFit {
       std::erase(watched_, kOffset);
   }
 
-  // Commands that are logged late ask for motors without a lag, and from there for an offset before they ask
-  // for a delay: with that from the beginning no offset may be missing.
+  // Commands that are logged late first ask for motors without a lag, from there for an offset, and only then
+  // for a delay. With the delay from the beginning no offset may be needed.
   void try_delay_alone() {
     tried_alone_ = true;
     std::vector<std::string> alone = found_;
@@ -209,7 +209,7 @@ class WatchedFit {
     return contradicted(*one_.theta, one_.fit, names, of_yaw ? kBeyondDoubtOfYaw : kBeyondDoubt);
   }
 
-  // Of what was found, while something else was still missing perhaps; it is asked no more.
+  // Holds one freed constant again that may be nothing; it is not asked for any more.
   bool drop_one() {
     const auto name = std::ranges::find_if(found_, [&](const std::string& of) {
       return may_be_nothing(*one_.theta, one_.fit, of,
@@ -232,7 +232,7 @@ class WatchedFit {
   std::vector<std::string> watched_, found_, base_;
   FittedFlight one_;
   bool tried_alone_ = false;
-  std::string unasked_;  // free from the beginning, with nothing that asked for it
+  std::string unasked_;  // free from the beginning without a test
 };
 
 }  // namespace

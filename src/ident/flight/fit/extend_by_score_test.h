@@ -1,6 +1,5 @@
-// Constants that a vehicle file need not state, and that a flight may contradict: whether rotor speed is
-// proportional to the command (brushed motors and many speed controllers have an offset), and follows it
-// without a dead time; whether rotors have inertia.
+// Frees constants that a vehicle file does not state where the flight contradicts their default: a command
+// offset (brushed motors and many speed controllers have one), a dead time, the inertia of the rotors.
 #pragma once
 
 #include <functional>
@@ -23,9 +22,9 @@ struct WatchOptions {
   std::function<void(double)> progress;
 };
 
-/// An exact fit of the constants; of watched ones too where the logs contradict them, and of Omega_0 where
-/// thrust does not carry the weight and an offset puts that right: `result` is warned then. What turns out to
-/// be nothing by chance, once all is found, is held again.
+/// Exact fit of the constants. A watched constant is freed where the logs contradict it, and Omega_0 also
+/// where thrust does not carry the weight and an offset mends that; `result` is warned. A freed constant that
+/// turns out to be nothing is held again in the end.
 FittedFlight fit_and_watch(const Vehicle& vehicle, const std::vector<double>& p, const FlightRecord& record,
                            std::vector<FreeConstant> constants, const WatchOptions& options, Result& result);
 

@@ -1,5 +1,5 @@
-// Of two poles, at omega_m (zeta_m +- sqrt(zeta_m^2 - 1)), the faster leaves no trace: zeta_m has no upper
-// bound, and omega_m goes with it.
+// The faster of two poles, at omega_m (zeta_m +- sqrt(zeta_m^2 - 1)), leaves no trace: zeta_m has no upper
+// bound, and omega_m grows with it.
 #include "ident/flight/fit/first_order_motors.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A fit of a flight: an excerpt first, then all of it.
+// Fits a flight: first an excerpt, then all of it.
 #include "ident/flight/fit/fit.h"
 
 #include <algorithm>
@@ -13,25 +13,26 @@
 namespace ident {
 namespace {
 
-// Records longer than this, s, are begun on so much of them, in stretches of so many seconds: rounds of noise
-// are most of a fit, and few are left once it is nearly known.
+// Records longer than kLong seconds are begun on kExcerpt seconds of them, in stretches of kStretch seconds.
+// Most of the time of a fit goes into rounds of noise, and few are needed once the noise is nearly known.
 constexpr double kLong = 30.0, kExcerpt = 15.0, kStretch = 4.0;
 constexpr double kLeastShare = 0.1, kMostShare = 0.25;
-// Deviations of a constant from what was stated of it that is bent for something missing.
+// Distance from its prior, in standard deviations, of a constant that is bent by something missing.
 constexpr double kBent = 5.0;
 
 using Tell = std::function<void(double)>;
 
-// Whether every log that flies is in an excerpt.
+// Whether every log of a record is in its excerpt.
 bool of_every_log(const FlightRecord& excerpt, const FlightRecord& record) {
   return std::ranges::all_of(record.arcs, [&](const FlightArc& arc) {
     return std::ranges::find(excerpt.arcs, arc.log, &FlightArc::log) != excerpt.arcs.end();
   });
 }
 
-// A fit begun, its noise found if that is asked for. Where the first steps do not come near, the likelier of
-// two: that one, and one that knew what the model does not explain before it took any; where they run away,
-// the other. In a search for what is missing this one also where the first is bent for it.
+// Begins a fit and finds its noise if asked to. Where the first steps end far from a minimum, a second fit is
+// begun that estimates the noise before its first step, and the likelier of the two is returned. Where the
+// first one diverges, the second is. In a search of a diagnosis the second also wins where the first has bent
+// a constant.
 std::unique_ptr<Fitting> started(const FlightRecord& record, const Theta& theta,
                                  const FlightFitOptions& options, const Tell& tell) {
   auto fit = std::make_unique<Fitting>(record, theta, options);
@@ -59,7 +60,7 @@ std::unique_ptr<Fitting> started(const FlightRecord& record, const Theta& theta,
       const bool bends_less = fit->pull() > kBent && other->pull() < fit->pull();
       if (likelier || (options.rough_noise && bends_less)) return other;
     }
-  } catch (const DataError&) {  // nothing flies from there
+  } catch (const DataError&) {  // the simulation diverges from there
   }
   if (ran_away) std::rethrow_exception(ran_away);
   return fit;
@@ -81,12 +82,12 @@ FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const Fligh
         const std::unique_ptr<Fitting> first = started(excerpt, theta, options, tell(0.1, 0.4));
         first->steps_show(record.duration / excerpt.duration);
         begun = fitting->go_on_from(*first);
-      } catch (const DataError&) {  // too little of it to be simulated; the whole may be
+      } catch (const DataError&) {  // the excerpt cannot be simulated; the whole may be
       }
   }
   if (begun) try {
       fitting->find_noise(tell(0.4, 0.8));
-    } catch (const DataError&) {  // where the excerpt led, the rest does not fly
+    } catch (const DataError&) {  // the rest diverges where the excerpt led
       begun = false;
     }
   if (!begun) fitting = started(record, theta, options, tell(0.4, 0.8));

@@ -1,4 +1,4 @@
-// The end of a fit: its minimum, its covariance, and what parts of the flight say by themselves.
+// The end of a fit: minimum, covariance, and the constants by parts of the flight alone.
 #include <algorithm>
 #include <cmath>
 
@@ -14,17 +14,17 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Fall of the cost of a last step that needs no look: from so near the next one would be 1e-4 of it and less.
+// Decrease of the cost below which the last step needs no evaluation: the next one would be 1e-4 of it.
 constexpr double kSure = 0.5;
-// Slopes in single precision have errors of 1e-7, and information errors of about 1e-6 times the root of what
-// flight would say of a constant, were all states known, over what it does say. At the root of this limit no
-// error was above a hundredth in any direction.
+// Slopes in single precision have errors of 1e-7, and the information errors of about 1e-6 times the square
+// root of (information with all states known times variance). Below this limit of the product no error was
+// above 1 % in any direction.
 constexpr double kSingleServes = 1e6;
-// Times the cost that a minimum by exact slopes may have: it is that of nearly the same place.
+// A minimum by exact slopes may have this many times the cost: it is nearly the same place.
 constexpr double kAstray = 1.5;
 
-// Whether the rounding of slopes in single precision could pass for information: where there is next to no
-// noise, so that little of what the rows say of a constant is left once states are free.
+// Whether the rounding of single precision could count as information: with next to no noise little of what
+// the rows say of a constant is left once the states are free.
 bool rounding_shows(const FlightSmoother& smoother, const MatrixXd& covariance) {
   const VectorXd held = smoother.information_of_held_states();
   const auto n = held.size();
@@ -59,7 +59,7 @@ void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& opti
     const std::vector<FlightState<double>> states = smoother.states();
     const VectorXd u = fit.u;
     const double before = smoother.reduced().cost;
-    bool astray = false;  // as what little is known of states may go there
+    bool astray = false;  // states that are hardly determined may go astray
     try {
       minimum(true);
       astray = !(smoother.reduced().cost < kAstray * before + 1);

@@ -1,4 +1,4 @@
-// Ceres over the reduced system, in turn with the noise.
+// The rounds of a fit: steps over the reduced system in turn with the noise.
 #include "ident/flight/fit/fit_driver.h"
 
 #include <algorithm>
@@ -10,50 +10,55 @@ namespace ident {
 namespace {
 
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
-// Change of a noise level that is good enough to choose the axes of gusts, and after many rounds to stop.
+// Relative change of a noise level at which the axes of gusts are chosen, and at which many rounds end.
 constexpr double kNearly = 0.3;
+<<<<<<< HEAD
 // Change of a noise level at which it is known, and roughly known; rounds for the air's in each round.
 constexpr double kKnownWell = 0.03, kRoughly = 0.1;
+=======
+// Relative change of a noise level at which it is known, and roughly known. Rounds for the process noise
+// within each round.
+constexpr double kKnown = 0.03, kRoughly = 0.1;
+>>>>>>> wt-docs
 constexpr int kManyRetuned = 9, kRetuned = 6, kFewRetuned = 3;
-// Steps before noise is estimated: what the model misses there would pass for noise.
+// Steps before the noise is estimated: what the model misses there would count as noise.
 constexpr int kFirstSteps = 4;
-// A mean square of residuals, in variances, that those steps leave, or further steps of such length, where
-// something may be missing that the model bends for, as far as to motors that do nothing; rounds of noise
-// before the first step of a fit that keeps from it.
+// Mean square of the weighted residuals after those steps above which something may be missing for which the
+// fit bends, as far as to motors without effect; rounds of noise before the first step of the second start.
 constexpr double kMisses = 3.0;
 constexpr int kBeforeSteps = 4;
-// A mean square of residuals, in variances, so large that the model is far from any minimum, and what is made
-// of it for the first steps.
+// Mean square of the weighted residuals that is far from any minimum, and the one to which noise is raised
+// for the first steps.
 constexpr double kFar = 1e4;
 constexpr double kCalm = 10.0;
 constexpr double kHeldChunk = 0.2, kSureChunk = 0.1;  // lengths of the first chunks, s
-// A step that is taken without a look at where it begins: the largest change of a logarithm, what it may
-// leave of what it promised, and the mean square of residuals, in variances, that it leads to.
+// A step that is taken without an evaluation at its start: largest change of a logarithm, share of the
+// promised decrease that it may leave, mean square of the weighted residuals where it ends.
 constexpr double kBend = 0.3, kHardlyBends = 0.1, kExplained = 1.1;
-// Chunks are cut anew where others are wanted, so many times as long, for speed, or as short, for the truth.
+// Chunks are cut anew when they could be longer by this factor (for speed), or have to be shorter (for
+// accuracy).
 constexpr double kLonger = 1.5, kShorter = 1.2;
-// Fall of the cost that steps of lower order may feign by the rows of chunks, and where these end. Of the
-// noise that would do the same there, which is next to none where no wind blows, causes made a fiftieth and
-// less: 40 of 2000, 30 of 14000.
+// Decrease of the cost that steps of lower order may feign within chunks and at their ends. At the ends it
+// counts against process noise, of which there is next to none in still air; causes then explained a fiftieth
+// of it and less: 40 of 2000, 30 of 14000.
 constexpr double kOfSteps = 1.0, kOfLinks = 100.0;
 
 using Eigen::VectorXd;
 
-// Mean square of the residuals, in variances.
+// Mean square of the weighted residuals.
 double square_of(const FlightSmoother& smoother) {
   return smoother.reduced().cost / samples_of(smoother.record());
 }
 
-// Chunks before the noise is known, s. Where attitude or rates are not measured, states drift from what
-// little holds them.
+// Length of chunks before the noise is known, s. Shorter where attitude or rates are not measured, because
+// states drift there.
 double first_chunk(const FlightRecord& record) {
   const bool held = record.signals.rates && record.signals.attitude;
   return std::max(held ? kHeldChunk : kSureChunk, 4 * record.interval);
 }
 
-// Very far from the minimum, steps follow what noise there is against everything that was known beforehand,
-// to where chance takes them. Noise as large as the residuals of a channel lets the first ones keep to it;
-// rounds of noise bring it down again.
+// Very far from the minimum steps follow the noise against the priors, at random. Noise as large as the
+// residuals of a channel keeps the first steps near the priors; rounds of noise bring it down again.
 NoiseModel calmer(const FlightSmoother& smoother) {
   const Moments m = smoother.moments();
   NoiseModel noise = smoother.noise();
@@ -112,8 +117,8 @@ bool Fitting::go_on_from(const Fitting& excerpt) {
   u_ = excerpt.u_, chunk_ = excerpt.chunk_, axes_chosen_ = excerpt.axes_chosen_, steps_ = excerpt.steps_;
   by_ = excerpt.by_;
   restart(excerpt.smoother_->noise(), 1, near());
-  // The end has to be of fine steps: what is found here by others would have to be found once more. No step
-  // of the constants yet: it was worth nothing from states that had not settled.
+  // An exact fit ends with fine steps, so the noise has to be found with them. No step of the constants yet:
+  // from states that have not settled it is worth nothing.
   if (options_.exact) smoother_->set_steps(by_ = Steps::fine);
   if (!(square_of(*smoother_) < kFar)) {
     u_ = start_of(theta_, options_), axes_chosen_ = false, steps_ = 0;
@@ -167,9 +172,9 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
   if (looked_at) smoother_->accept();
 }
 
-// A step from far, to where the next round of noise looks at once: taken where the model then misses nothing
-// that noise does not explain, and hardly bent on the way. Any other is for a trust region, which looks
-// twice.
+// A step from far away that ends where the next round of noise begins. It is taken where the model then
+// misses nothing but noise and was nearly linear on the way; any other step is left to the trust region,
+// which evaluates twice.
 bool Fitting::steps_far(const NewtonStep& step) {
   if (!is_short(theta_, u_, step.du / kBend)) return false;
   const VectorXd to = u_ + step.du;
@@ -184,7 +189,7 @@ bool Fitting::steps_far(const NewtonStep& step) {
 bool Fitting::steps_show(double times) {
   bool shown = false;
   serves_ = by_;
-  // A fit that ends by fine steps is led there by what rows show.
+  // An exact fit ends with fine steps anyway: only the rows count for it.
   const auto show = [&] {
     const FlightSmoother::WorthOfSteps worth = smoother_->worth_of_fine_steps();
     return times * worth.rows > kOfSteps || (!options_.exact && times * worth.links > kOfLinks);
@@ -201,8 +206,8 @@ FlightFit Fitting::finish() {
   if (gave_up()) return unfinished();
   smoother_->set_gentle(false);
   if (options_.exact) smoother_->set_steps(Steps::fine);
-  // Far from any minimum states may have been sent where nothing flies, from where gross errors, which count
-  // linearly, do not call them back: back to what was measured then.
+  // Far from any minimum states may have been sent where the simulation diverges. Gross errors count linearly
+  // and do not call them back: start again from the measured states.
   if (!is_finite(linearize_at(*smoother_, u_)) || is_lost()) restart(smoother_->noise());
   const SharedMinimum at = minimise_shared(*smoother_, u_, worth_a_step(*smoother_, options_),
                                            options_.most_steps > 0 ? options_.most_steps - steps_ : 0);
@@ -252,7 +257,7 @@ void Fitting::set_out() {
 void Fitting::start(const NoiseModel& noise) {
   smoother_ = std::make_shared<FlightSmoother>(record_, theta_, noise, chunk_, options_.threads);
   smoother_->set_steps(by_);
-  // Gross errors count linearly, but only once the model is near: far from it everything looks gross.
+  // Gross errors count linearly only once the model is near: far away everything looks gross.
   smoother_->set_huber(options_.estimate_noise || !options_.robust ? 1e9 : kHuber);
   if (near()) smoother_->start_from(*near());
   smoother_->settle(u_, 1);

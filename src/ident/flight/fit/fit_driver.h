@@ -1,4 +1,4 @@
-// A fit on its way, from its first steps to its end.
+// One fit from its first steps to its end.
 #pragma once
 
 #include <functional>
@@ -9,51 +9,51 @@
 
 namespace ident {
 
-/// One fit on its way: shared unknowns, noise and chunks over a record or an excerpt of it.
+/// The state of a fit: shared unknowns, noise and chunks over a record or an excerpt of it.
 class Fitting {
  public:
   Fitting(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options);
 
-  /// From what was measured and stated.
+  /// Starts from the measurements and the stated constants.
   void begin();
 
-  /// The same, after rounds of noise at what was stated.
+  /// The same, with rounds of noise at the stated constants first.
   void begin_with_noise();
 
-  /// Whether it is not near a minimum, or misses more than noise.
+  /// Whether the fit is far from a minimum, or misses more than noise.
   bool misses();
 
-  /// The farthest that a constant is from what was stated, in deviations.
+  /// Largest distance of a constant from its prior, in standard deviations.
   double pull() const;
 
-  /// Of its noise and unknowns: the less the likelier.
+  /// -2 log marginal likelihood of its noise and unknowns.
   double surprise();
 
-  /// From where the fit of an excerpt ended; false where that is far from anything here.
+  /// Goes on from the end of the fit of an excerpt. False where that is far from anything here.
   bool go_on_from(const Fitting& excerpt);
 
-  /// Noise and unknowns in turn. Chunks may change in the first two rounds.
+  /// Estimates noise and unknowns in turn. The length of chunks may change in the first two rounds.
   void find_noise(const std::function<void(double)>& tell);
 
-  /// Whether there is so little noise that it shows how flight is simulated, in `times` as much flight; by
-  /// finer steps from then on.
+  /// Whether the present integration steps make a difference in `times` as much flight, because there is so
+  /// little noise. Takes finer steps then.
   bool steps_show(double times = 1.0);
 
-  /// To the minimum, under the noise found.
+  /// Goes to the minimum under the noise found.
   FlightFit finish();
 
  private:
-  /// Whether some of the states have nothing to do with what was measured.
+  /// Whether some states have left what was measured.
   bool is_lost() const;
   TrustRegion first_steps() const;
   bool gave_up() const { return options_.most_steps > 0 && steps_ >= options_.most_steps; }
   FlightFit unfinished() const;
-  // To where the first step begins: states as measured, in chunks short enough for what they miss.
+  // Prepares the first step: states as measured, chunks short enough for what they miss.
   void set_out();
   void start(const NoiseModel& noise);
-  // From the states that were measured, or those of `from`.
+  // Starts anew from the measured states, or from those of `from`.
   void restart(const NoiseModel& noise, int rounds = 2, const FlightSmoother* from = nullptr);
-  // What there is of a like model, over the same record.
+  // The smoother of a similar model over the same record, if there is one.
   const FlightSmoother* near() const;
   bool steps_far(const NewtonStep& step);
   void trust_region(const TrustRegion& region);
@@ -63,12 +63,12 @@ class Fitting {
   const FlightFitOptions& options_;
   Eigen::VectorXd u_;
   std::shared_ptr<FlightSmoother> smoother_;
-  Steps by_;  // which flight is simulated
+  Steps by_;  // integration steps
   Steps serves_ = Steps::fine;
   double chunk_ = 0.0;
   int steps_ = 0;
-  bool gone_on_ = false;                           // from an excerpt, which knew the noise
-  bool axes_asked_ = false, axes_chosen_ = false;  // here; beyond doubt
+  bool gone_on_ = false;                           // went on from an excerpt, which knew the noise
+  bool axes_asked_ = false, axes_chosen_ = false;  // the question was asked here; the answer is beyond doubt
 };
 
 }  // namespace ident

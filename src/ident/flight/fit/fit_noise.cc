@@ -1,4 +1,4 @@
-// The noise that a fit starts from, what the residuals say of it, and how short chunks have to be for it.
+// Noise levels: those to start from, those by the residuals, and the length of chunks that they ask for.
 #include <algorithm>
 #include <cmath>
 
@@ -9,11 +9,16 @@
 namespace ident {
 namespace {
 
+<<<<<<< HEAD
 constexpr double kNoGust = 0.01;            // m/s^2: weaker ones move no constant, whatever their axes
 constexpr double kNoiseBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
+=======
+constexpr double kNoGust = 0.01;       // m/s^2: weaker gusts move no constant, whatever their axes
+constexpr double kBeyondDoubt = 10.0;  // decrease of -2 log likelihood
+>>>>>>> wt-docs
 constexpr int kRetune = 3;
-// Shortest chunks, s; in a search, where models that miss much ask for the shortest, less would cost time
-// only. The longest, and how much longer those of a search are.
+// Shortest chunks of a refinement and of a search, s: in a search, models that miss much would ask for the
+// shortest and cost time only. Longest chunks, s, and how much longer those of a search are.
 constexpr double kFinest = 0.03, kFinestSearch = 0.1, kLongest = 0.25, kInSearch = 2.0;
 
 double rms_rate_of(const FlightRecord& record, int channel) {
@@ -32,7 +37,7 @@ double rms_rate_of(const FlightRecord& record, int channel) {
   return n > 0 ? std::sqrt(sum / n) : 0.0;
 }
 
-// White noise that a channel has at least.
+// Least white noise of a channel.
 double least_noise(const FlightRecord& record, std::size_t channel) {
   return is_slowly_off(record, static_cast<int>(channel)) ? record.sigma[channel] : 1e-10;
 }
@@ -104,10 +109,9 @@ bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {
   // An acceleration that is constant over h seconds misses sqrt(2 s^2 h/tau) of a Gauss-Markov process, and
-  // the velocity by h/4 of that. This may reach a quarter of the noise of the mean of a chunk's rows, which
+  // the velocity h/4 of that. This may reach a quarter of the noise of the mean of a chunk's rows, which
   // share the error. In a search chunks are twice as long: where a controller answers gusts, what they miss
-  // then passes for about a standard deviation of what its answers tell of (Jp, the motors' lag); 3.5 times
-  // as long it was four to ten.
+  // then moves Jp and the motor lag by about one standard deviation; 3.5 times as long it was four to ten.
   double h = kLongest;
   const auto shorten = [&](std::size_t channel, const std::array<ColouredNoise, 3>& process) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Steps over the reduced system of the smoother.
+// Ceres' trust region and Newton steps over the reduced system.
 #include "ident/flight/fit/fit_steps.h"
 
 #include <Eigen/Cholesky>
@@ -13,21 +13,20 @@
 namespace ident {
 namespace {
 
-// Near the minimum a step has to leave no more than this share of what was promised before it.
+// A Newton step is taken if the next one promises at most this share of its decrease.
 constexpr double kShrinks = 0.7;
-// What is left where steps near the minimum lead nowhere, for a trust region to be worth its time.
+// Decrease that is still promised where Newton steps fail, for a trust region to be worth its time.
 constexpr double kStuck = 1.0;
 constexpr int kMostSteps = 30;
-// Trust region, in standard deviations of each unknown alone, after a step without one has failed.
+// Trust region after a step without one has failed, in standard deviations of each unknown alone.
 constexpr double kShort = 1.0;
-// Steps from there that fail one after the other: the next would be a thousandth of it.
+// Rejected steps in a row that end it: the next one would be a thousandth of the first.
 constexpr int kRejectedShort = 5;
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// S = F'F by eigenvalues: S may be singular where the data tell nothing. Gives F and F^-T g (within its
-/// range).
+/// S = F'F by eigenvalues, because S may be singular. Gives F and F^-T g (within its range).
 struct Factor {
   MatrixXd F;
   VectorXd r;
@@ -82,12 +81,12 @@ class SharedResiduals {
 
  private:
   FlightSmoother* smoother_;
-  VectorXd last_;  // empty where nothing can be simulated
+  VectorXd last_;  // empty where the simulation diverges
 };
 
-// Newton's steps where they are near the minimum, until less than `enough` is promised; gives the fall that
-// is left. It is this promise that judges a step: the cost is known only up to what the states gain by a step
-// of their own, and near the minimum that is more than the shared unknowns do.
+// Newton steps near the minimum, until less than `enough` is promised; returns the decrease that is still
+// promised. Steps are judged by this promise: the cost is known only up to what the states would gain by
+// another step, which near the minimum is more than the shared unknowns gain.
 double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough, int most_steps) {
   linearize_at(smoother, at.u);
   smoother.accept();
@@ -116,8 +115,8 @@ const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u) {
 }
 
 bool is_finite(const ReducedSystem& system) {
-  // Where a simulation has run away rounding leaves less than nothing of a sum of squares. Motors that are
-  // held to their commands by next to no noise make the largest fall that means anything, some 1e20.
+  // Where a simulation has diverged, rounding makes a sum of squares negative. Motors that follow their
+  // commands with next to no noise make the largest decrease that means anything, some 1e20.
   constexpr double kRounding = 1e-3, kRanAway = 1e30;
   return std::isfinite(system.cost) && std::abs(system.fall) < kRanAway &&
          system.cost >= -kRounding * std::abs(system.fall) && system.S.allFinite() && system.g.allFinite();
@@ -132,7 +131,7 @@ double samples_of(const FlightRecord& record) {
 
 MatrixXd prior_information(const Theta& theta, const VectorXd& u) {
   const PriorTerms prior = theta.prior(u);
-  // Without any prior a factor of e is allowed per standard deviation.
+  // Without a prior: one unit with a standard deviation of 10.
   MatrixXd info = prior.information();
   for (int i = 0; i < theta.size(); ++i)
     if (prior.slope[i] == 0) info(i, i) = 1e-2;
@@ -147,15 +146,15 @@ MatrixXd inverse_of(const MatrixXd& M) {
 }
 
 Posterior posterior(const MatrixXd& information, const MatrixXd& prior) {
-  constexpr double kRounding = 1e-8;  // of the largest, once all are scaled: seen was 3e-9
+  constexpr double kRounding = 1e-8;  // of the largest eigenvalue, scaled; 3e-9 was seen
   const VectorXd s = (information + prior).diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(s.asDiagonal() * information * s.asDiagonal());
   const VectorXd& values = eigen.eigenvalues();
   const VectorXd told = (values.array() > kRounding * values.maxCoeff()).select(values, 0.0);
   const MatrixXd root = s.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
                         told.cwiseSqrt().asDiagonal();  // of the information
-  // In units of the prior, prior = L L', what nothing tells keeps a variance of one, however much else is
-  // told.
+  // In units of the prior, prior = L L': undetermined directions keep a variance of one, however well others
+  // are determined.
   const Eigen::LLT<MatrixXd> L(prior);
   const Eigen::JacobiSVD<MatrixXd> shares(L.matrixL().solve(root), Eigen::ComputeFullU);
   const VectorXd left = (1 + shares.singularValues().array().square()).inverse();
@@ -188,7 +187,7 @@ SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, c
   if (region.free) problem.initial_radius = 1e12, problem.most_rejected = 1;
   SteppedMinimum best = minimise_stepped(problem, start);
   int steps = best.steps;
-  // From that far it would take ten more to shrink to where a step helps.
+  // From so far it would take ten more rejected steps until one helps.
   if (region.free && best.rejected) {
     problem.initial_radius = kShort, problem.most_rejected = kRejectedShort;
     problem.max_steps = std::max(region.max_steps - steps, 1);
@@ -214,7 +213,7 @@ SharedMinimum minimise_shared(FlightSmoother& smoother, const VectorXd& start, d
     at.steps += before;
   };
   double left = newton_steps(smoother, at, enough, left_of(kMostSteps));
-  // Where the model bends more than its slopes tell, steps promise what none of any length keeps.
+  // Where the model is too nonlinear, steps promise a decrease that no length of step keeps.
   for (const double near : {kNear, 0.0}) {
     if (left < std::max(near, std::max(enough, kStuck))) continue;
     if (left_of(1) < 1) break;

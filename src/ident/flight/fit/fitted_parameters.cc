@@ -1,4 +1,4 @@
-// Estimates with intervals and pulls, from the covariance of the unknowns and the priors.
+// Intervals, pulls and identifiability from the covariance of the unknowns and the priors.
 #include "ident/flight/fit/fitted_parameters.h"
 
 #include <fmt/format.h>
@@ -16,14 +16,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kMoved = 1e-6;  // of what was known
-constexpr double kHeard = 0.05;  // share of a statement's information from which on a flight has a say in it
-constexpr double kTogether = 0.1;  // correlation of what is worth naming together
+constexpr double kMoved = 1e-6;    // of the standard deviation of the prior
+constexpr double kHeard = 0.05;    // least share of information from flight for a pull to mean anything
+constexpr double kTogether = 0.1;  // least correlation of priors that are named together
 
-// Pulls against what is known together, in standard deviations: how much each statement, given the others, is
-// contradicted. With the priors' covariance C and precision P in standard deviations, the naive covariance S
-// of the fit and the corrected one V, the estimate moves by d with covariance C - 2 S + V (C - S where
-// residuals are white); P d is the pull times its deviation. 0 where the flight has no say.
+// Pulls against correlated priors, in standard deviations: how much each prior, given the others, is
+// contradicted. With covariance C and precision P of the priors in standard deviations, the naive covariance
+// S of the fit and the corrected one V, the estimate moves by d with covariance C - 2 S + V (C - S for white
+// residuals); P d is the pull times its standard deviation. 0 where the flight adds nothing.
 VectorXd pulls_together(const PriorTerms& prior, const FlightFit& fit) {
   const Eigen::MatrixXd& P = prior.precision;
   const auto scaled = [&](const Eigen::MatrixXd& covariance) {
@@ -53,7 +53,7 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
     p.naive_std = theta.deviation(fit.u, i, fit.naive_covariance);
     p.unit = parameter_unit(c.name);
     p.source = source;
-    // In the logarithm for positive constants: the interval stays positive.
+    // For positive constants by the logarithm, so that the interval stays positive.
     const double z = 1.96 * std::sqrt(fit.covariance(i, i));
     p.ci95 = c.positive && z < 3 && !c.prior_std ? std::array{p.value * std::exp(-z), p.value * std::exp(z)}
                                                  : std::array{p.value - 1.96 * p.std, p.value + 1.96 * p.std};
@@ -61,9 +61,8 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       p.prior_value = c.prior_value, p.prior_std = *c.prior_std;
       const double ratio = std::min(*p.naive_std / *c.prior_std, 1.0);
       p.from_flight = 1 - ratio * ratio;
-      // The pull compares the two sources of information: what the flight alone would say (naive variance v,
-      // in truth `colour` times that) with what was stated. The estimate moves by a share of their
-      // difference.
+      // The pull compares two sources of information: the flight alone (naive variance v, in truth `colour`
+      // times that) and the prior. The estimate moves by a share of their difference.
       const double stated = *c.prior_std * *c.prior_std, share = std::max(1 - ratio * ratio, 1e-4);
       const double alone = stated * (1 - share) / share, colour = std::pow(p.std / *p.naive_std, 2);
       p.pull = c.known_with.empty() ? (p.value - c.prior_value) / (share * std::sqrt(stated + colour * alone))
@@ -72,7 +71,7 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       p.identifiable = p.std < 0.5 * *c.prior_std;
     } else {
       p.from_flight = 1.0;
-      // What is zero for most vehicles is known by its usual size.
+      // What is zero for most vehicles is judged against its usual size.
       const bool mostly_zero = c.index == param::dead_time || c.index == param::Omega_0;
       p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
     }
@@ -109,8 +108,8 @@ std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,
       if (i == k || !usable(i) || !usable(k)) continue;
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
       const double vi = fit.covariance(a, a), vk = fit.covariance(b, b), c = fit.covariance(a, b);
-      // log(x_i) + e log(x_k) has the least variance for e = -c/vk; a simple exponent that leaves little is a
-      // finding.
+      // The variance of log(x_i) + e log(x_k) is least for e = -c/vk; a simple exponent that leaves little of
+      // it is a finding.
       for (const double e : {1.0, 2.0, -1.0, -2.0}) {
         const double v = vi + 2 * e * c + e * e * vk;
         if (v > 0.04 * std::min(vi, e * e * vk) || (std::abs(e) == 1.0 && i > k)) continue;

@@ -1,4 +1,4 @@
-// Predicts held-out flight with both, and judges.
+// Predicts held-out flight with both sets of constants and compares the errors.
 #include "ident/flight/fit/held_out_validation.h"
 
 #include <utility>
@@ -6,9 +6,9 @@
 namespace ident {
 namespace {
 
-// A fit that the model suits predicts better than what was stated, or as well. Where it is by this factor
-// worse at the shortest horizon, and better at none, its constants may have taken the place of what the
-// model lacks.
+// Ratio of errors. A fit of a model without defect predicts as well as the stated constants or better. Where
+// it is worse by this factor at the shortest horizon, and better at none, its constants may have taken the
+// place of something missing.
 constexpr double kWorse = 1.1;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How refined constants predict flight that was not fitted, beside those that were stated.
+// Prediction of held-out flight by the refined constants and by those stated.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct Validation {
   std::vector<PredictionWindow> stated_longest, refined_longest;  ///< windows of the longest horizon
 };
 
-/// Errors over 0.1, 0.5 and 1 s of `held_out` of the constants at `before` and of those of the fit.
+/// Errors over 0.1, 0.5 and 1 s of `held_out`, by the constants at `before` and by those of the fit.
 Validation validate_refined(const FlightRecord& held_out, const Theta& theta, const Eigen::VectorXd& before,
                             const FlightFit& fit);
 

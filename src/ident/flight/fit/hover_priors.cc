@@ -1,4 +1,4 @@
-// Priors that do not give way, and the parameters that they leave as they were.
+// Tight priors for the held constants, and their parameters as before the flight.
 #include "ident/flight/fit/hover_priors.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace ident {
 namespace {
 
-constexpr double kHeld = 1e-3;  // of what it is known to
+constexpr double kHeld = 1e-3;  // of the standard deviation of the prior
 
 bool needs_motion(int index) {
   switch (index) {

@@ -1,4 +1,4 @@
-// What a flight that hardly leaves hover cannot tell is held at what was known.
+// Holds constants that a flight near hover cannot determine at their priors.
 #pragma once
 
 #include <span>
@@ -10,19 +10,19 @@
 
 namespace ident {
 
-/// Whether a self-test found little more than hover.
+/// Whether the self-test found little more than hover.
 bool is_hover(std::span<const Warning> findings);
 
-/// Of which constants of motors and inertia hover is not trusted to tell anything.
+/// Which constants of motors and inertia are held in hover.
 enum class Held {
-  all,       ///< free, they would be fitted to the noise of one initial transient
-  unstated,  ///< only those: what is stated may be off by its deviation, and is no gap then
+  all,       ///< all: free ones would be fitted to the noise of one initial transient
+  unstated,  ///< only those without a prior: stated ones may be off within their deviation, which is no gap
 };
 
-/// Holds them; gives the names of all that hover is not trusted with.
+/// Holds them. Returns the names of all that hover does not determine.
 std::vector<std::string> hold_for_hover(std::vector<FreeConstant>& constants, Held which = Held::all);
 
-/// Says of the constants held what `constants`, as they were before, say of them: nothing comes from flight.
+/// Gives the held constants the values and deviations that `constants` had before: nothing comes from flight.
 void as_before_flight(std::vector<Parameter>& parameters, const std::vector<FreeConstant>& constants,
                       std::span<const std::string> held);
 

@@ -1,4 +1,4 @@
-// One Newton step with the other input, the states following.
+// One Newton step with the other input, with the states following.
 #include "ident/flight/fit/input_sensitivity.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Jxx + Jyy >= Jzz and so on in turn, with the covariance of the fit; the nearest inertia for which that
-// holds.
+// The triangle inequality of the moments of inertia, tested with the covariance of the fit, and the
+// projection onto it.
 #include "ident/flight/fit/physical_inertia.h"
 
 #include <fmt/format.h>
@@ -13,10 +13,15 @@
 namespace ident {
 namespace {
 
+<<<<<<< HEAD
 // Below so many standard deviations it is chance, in a body that is nearly flat.
 constexpr double kInertiaByChance = 2.0;
+=======
+// Violations below so many standard deviations are chance, in a body that is nearly flat.
+constexpr double kByChance = 2.0;
+>>>>>>> wt-docs
 
-// A second moment of mass below this share of their sum is none.
+// A second moment of mass below this share of their sum counts as zero.
 constexpr double kFlat = 1e-9;
 constexpr int kMostRounds = 50;
 
@@ -26,7 +31,7 @@ Eigen::Matrix3d second_moments(const Theta& theta, const Eigen::VectorXd& u) {
   return 0.5 * J.trace() * Eigen::Matrix3d::Identity() - J;
 }
 
-// The least of them, over their sum, and its slope over the unknowns by central differences.
+// The least second moment over the sum of all, and its derivative over the unknowns by central differences.
 struct Least {
   double share = 0.0;
   Eigen::VectorXd slope;

@@ -1,4 +1,4 @@
-// Whether a body can have the inertia that flight shows, and the nearest one that a body has.
+// Whether a body can have the estimated inertia, and the nearest inertia that a body can have.
 #pragma once
 
 #include "ident/flight/fit/fit.h"

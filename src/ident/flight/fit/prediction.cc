@@ -13,8 +13,8 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Covariance of an unknown constant acceleration that moves velocities as much as the process does by the end
-// of the window: its integral over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
+// Sets the variance of a constant acceleration that moves velocities as much as the process does by the end
+// of the window: the integral of the process over T has the variance 2 s^2 tau (T - tau (1 - exp(-T/tau))).
 void expect_outside(RowMatrix& P, int at, const std::array<ColouredNoise, 3>& noise, double horizon) {
   const double T = horizon;
   for (int i = 0; i < 3 && at >= 0; ++i) {
@@ -56,7 +56,7 @@ std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& r
     // No model predicts gusts: they count in the floor.
     expect_outside(P, layout.w_dot, noise.in_log(arc.log).w_dot, horizon);
     expect_outside(P, layout.v_dot, noise.in_log(arc.log).v_dot, horizon);
-    // Errors of what is shown go on from what they were: half way, say.
+    // Slow errors go on from what they were; taken half way through the window.
     for (std::size_t g = 0; g < kShownGroups; ++g)
       for (int i = 0; i < 3 && layout.shown_error[g] >= 0; ++i) {
         const ColouredNoise& error = noise.slow[g][static_cast<std::size_t>(i)];

@@ -1,4 +1,4 @@
-// Prediction error on flight that was not used to fit: from states estimated out of the past only.
+// Prediction error on held-out flight, from states that were estimated from the past only.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace ident {
 
-/// One window: mean over its samples of (error/sigma)^2 per channel, and what a perfect model would have.
+/// One window: per channel the sum of (error/sigma)^2, the same for a perfect model, and the number of
+/// samples.
 struct PredictionWindow {
   int log = 0;
   double t = 0.0;  ///< start, s
@@ -21,13 +22,13 @@ struct PredictionOptions {
   std::vector<double> horizons{0.1, 0.5, 1.0};  ///< s
   double history = 0.8;  ///< s of data from which the state at the window's start is estimated
   double spacing = 1.0;  ///< s between window starts
-  bool floors = true;    ///< without, what a perfect model would have is NaN; at a third of the cost
+  bool floors = true;    ///< false: the floor is NaN, at a third of the cost
   Steps steps = Steps::fine;
   int threads = 0;
 };
 
-/// Predicts windows of the record with the constants `theta` at `u`, under noise `noise` (whose process noise
-/// also counts in the floor: no model predicts gusts). One list for each horizon.
+/// Predicts windows of the record with the constants `theta` at `u`. The process noise of `noise` counts in
+/// the floor, because no model predicts gusts. One list for each horizon.
 std::vector<std::vector<PredictionWindow>> predict_windows(const FlightRecord& record, const Theta& theta,
                                                            const Eigen::VectorXd& u, const NoiseModel& noise,
                                                            const PredictionOptions& options);
@@ -47,7 +48,7 @@ struct GapClosed {
   double closed = kNaN;
   std::array<double, 2> ci95{kNaN, kNaN};
   double before = kNaN, after = kNaN, floor = kNaN;
-  bool held_out = true;  ///< there was flight to try a model on, whether or not one could predict it
+  bool held_out = true;  ///< there was held-out flight, whether or not it could be predicted
 };
 GapClosed gap_closed(const std::vector<PredictionWindow>& before, const std::vector<PredictionWindow>& after);
 

@@ -1,4 +1,4 @@
-// Smooths the history of every window with the constants held, and hands out what is to be predicted.
+// Estimates the state at the start of every window from its history, with the constants held.
 #include "ident/flight/fit/prediction_windows.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace ident {
 namespace {
 
-constexpr int kRounds = 30;  // until states are at their best: many where no rates or attitude were logged
+constexpr int kRounds = 30;            // until states are at their optimum: many without rates and attitude
 constexpr double kAtTheirBest = 1e-3;  // of the cost
 
 // The rows [begin, end) of an arc as an arc of its own, with the gyro bias taken off.

@@ -1,4 +1,4 @@
-// Windows of flight to be predicted, each from a state that was estimated out of the past only.
+// Windows of flight to be predicted, each from a state that was estimated from the past only.
 #pragma once
 
 #include <functional>
@@ -31,8 +31,8 @@ class FlightWindows {
   const FlightWindow& operator[](std::size_t w) const { return windows_[w]; }
   /// Covariance of the state at the start.
   const Eigen::MatrixXd& covariance(std::size_t w) const { return ends_[w].P; }
-  /// The rows of a window of `horizon` seconds, to be evaluated; one that the arc does not hold has `end` at
-  /// the arc's last row or beyond. Gusts are left out: no model predicts them.
+  /// The rows of a window of `horizon` seconds, ready to be evaluated. `end` is at the last row of the arc or
+  /// beyond where the arc does not hold the window. Gusts are left out: no model predicts them.
   ChunkTask task(std::size_t w, double horizon) const;
   void in_parallel(const std::function<void(std::size_t)>& work) const;
 

@@ -1,4 +1,4 @@
-// The sandwich in the directions that a flight tells.
+// The sandwich in the directions that the flight determines.
 #include "ident/flight/fit/sandwich_covariance.h"
 
 #include <Eigen/Cholesky>
@@ -11,7 +11,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTold = 0.05;  // share of the information about a direction that the flight tells
+constexpr double kTold = 0.05;  // least share of the information on a direction that comes from flight
 constexpr double kFewBlocks = 8;
 
 // A symmetric matrix with its eigenvalues between these.
@@ -55,7 +55,7 @@ MatrixXd corrected_for_colour(const MatrixXd& S, const MatrixXd& information,
                by_chance = usual * usual * static_cast<double>(p + 1) / n;
   const double drawn = differ > by_chance ? 0.5 * by_chance / differ : 0.5;
   K = clamped((1 - drawn) * K + drawn * all_alike - MatrixXd::Identity(p, p), 0.0, 1e300);
-  // The prior's variance is 1/(1 - s) there, and what is added to 1 at most the rest.
+  // The variance of the prior is 1/(1 - s) there, which bounds what may be added to 1.
   const VectorXd c = (1 - root.array().square()).max(1e-12).sqrt(), back = root.cwiseQuotient(c);
   const MatrixXd added =
       back.asDiagonal() * clamped(c.asDiagonal() * K * c.asDiagonal(), 0.0, 1.0) * back.asDiagonal();

@@ -1,4 +1,4 @@
-// A score test by blocks.
+// Score test with the spread of the scores over blocks.
 #include "ident/flight/fit/score_test.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
-  constexpr double kMatters = 1e-3;         // of the unit step: less is rounding
-  constexpr std::ptrdiff_t kFewBlocks = 8;  // do not tell by how much coloured residuals spread scores;
-  constexpr double kUntold = 4.0;           // they count as that much then
+  constexpr double kMatters = 1e-3;         // of the unit step; less is rounding
+  constexpr std::ptrdiff_t kFewBlocks = 8;  // too few to tell how much coloured residuals spread;
+  constexpr double kUntold = 4.0;           // this factor is assumed then
   PriorTerms prior = theta.prior(fit.u).loosened(at, 1.0);
   prior.slope[at] = 0;
   const Eigen::Index n = fit.u.size();
@@ -22,7 +22,7 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
   VectorXd g = prior.gradient();
   for (const ScoreBlock& block : fit.blocks) F += block.information, g += block.score;
   H += F;
-  H.diagonal() *= 1 + 1e-12;  // what nothing tells
+  H.diagonal() *= 1 + 1e-12;  // undetermined directions
   const MatrixXd covariance = inverse_of(H);
   const VectorXd direction = covariance.col(at), step = -covariance * g;
   if (!(std::abs(step[at]) > kMatters && direction[at] > 0)) return 0;

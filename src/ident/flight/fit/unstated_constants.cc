@@ -1,12 +1,12 @@
-// By name.
+// Which constants are stated, watched or found, by name.
 #include "ident/flight/fit/unstated_constants.h"
 
 namespace ident {
 namespace {
 
 constexpr double kHeldUnstated =
-    1e-6;  // of the unit step: a tenth of the speed at hover, 5 ms, a hundredth of J
-// Effects that are the same.
+    1e-6;  // of the unit step, which is a tenth of the speed at hover, 5 ms, 1 % of J
+// Effects that are the same as a constant.
 const std::string kDelay = "motor_delay.tau", kMomentum = "gyroscopic.Jp";
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Constants that a vehicle file need not state: which a flight can show, and what is said when one is found.
+// Constants that a vehicle file need not state: which of them a flight can show, and the warnings when one is
+// found.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +17,19 @@ inline bool is_in(const std::vector<std::string>& names, const std::string& name
   return std::ranges::find(names, name) != names.end();
 }
 
-/// Whether the vehicle states a constant, or an effect that is the same, or it is free.
+/// Whether the vehicle states a constant or an effect that is the same, or the constant is free.
 bool is_there(const std::string& name, const std::vector<FreeConstant>& constants, const Vehicle& vehicle);
 
-/// Of how motors follow their commands nothing is told without these.
+/// Whether logs with these signals can show the constant: what concerns the motors only with commands.
 bool can_show(const std::string& name, const Signals& signals);
 
-/// Where nothing is known of the inertia about yaw, it takes the place of that of the rotors, and what the
-/// one leaves of the other's work passes for gusts: then both are free from the start.
+/// Whether Jp has to be free from the start. Without a prior Jzz would take its place, and what is left of
+/// the effect of the one on the other would count as gusts.
 bool asks_at_once(const std::vector<FreeConstant>& constants, const Vehicle& vehicle,
                   const FlightRecord& record);
 
-/// Adds those of `names` to the constants, held where they are and watched: what the flight says against that
-/// comes with the fit. Not one that the vehicle states or that is free, nor one that is there as an effect.
+/// Adds the constants `names`, held and watched, so that their scores come with the fit. Not those that the
+/// vehicle states, that are free, or that are there as an effect.
 void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& constants,
            const Vehicle& vehicle, const FlightRecord& record, const std::vector<double>& p);
 

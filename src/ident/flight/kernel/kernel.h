@@ -28,13 +28,13 @@ enum Channel : int {
 };
 constexpr int kChannels = kRotorChannel + kMaxRotors;
 
-/// Which parts of the state are free, and where they stand in the local vector; -1: not part of the problem.
+/// Which parts of the state are free, and their places in the local vector; -1: not part of the problem.
 struct StateLayout {
   int rotors = 0;                                ///< of the vehicle
   int w = 0, attitude = -1, v = -1, x = -1;      ///< three components each
   int motors = -1;                               ///< Omega of all rotors, then their rates
   int w_dot = -1, v_dot = -1;                    ///< accelerations from outside, three components each
-  int shown_error[kShownGroups] = {-1, -1, -1};  ///< of what is shown, three components each
+  int shown_error[kShownGroups] = {-1, -1, -1};  ///< slow errors of what is shown, three components each
   int size = 3;
 };
 
@@ -42,11 +42,11 @@ struct StateLayout {
 struct Seed {
   int slot = 0, direction = 0;
   double derivative = 0.0;
-  EffectMask effect = 0;  ///< the one that the constant belongs to
+  EffectMask effect = 0;  ///< the effect that the constant belongs to
 };
 
-/// How flight is simulated: by Runge-Kutta 4 from row to row; by steps of order 2, at half the cost; by such
-/// steps over several rows, as long as motors bear.
+/// Integration steps: Runge-Kutta 4 from row to row; order 2 from row to row, at half the cost; order 2 over
+/// several rows, as long as the motors allow.
 enum class Steps { fine, coarse, longest };
 
 struct ChunkTask {
@@ -59,8 +59,8 @@ struct ChunkTask {
   EffectMask active = 0;  ///< effects off their null values
   int thetas = 0;
   std::size_t begin = 0, end = 0;  ///< rows [begin, end); simulated to row `end`
-  std::size_t rows = 0;            ///< of the whole arc
-  const double* t = nullptr;       ///< of the whole log
+  std::size_t rows = 0;            ///< number of rows of the whole arc
+  const double* t = nullptr;       ///< times of the whole arc, s
   const double* y = nullptr;       ///< [row][kChannels]; attitude channels hold 0 or NaN for "not sampled"
   const double* q = nullptr;       ///< [row][4] measured attitude
   const double* weight = nullptr;  ///< [kChannels] 1/sigma
@@ -69,8 +69,8 @@ struct ChunkTask {
   FlightState<double> x0;
   bool jacobian = true;
   bool products = true;                ///< J'J too; without, leverages only
-  bool few_leverages = false;          ///< those of every third sample stand for their neighbours
-  bool exact = false;                  ///< slopes in double precision, at twice the cost
+  bool few_leverages = false;          ///< leverages of every third sample stand for those of its neighbours
+  bool exact = false;                  ///< derivatives in double precision, at twice the cost
   const double* covariance = nullptr;  ///< of the local state, to compute leverages; or nullptr
   Steps steps = Steps::fine;
   double max_step = kEstimatorStep;  ///< s; longer steps between rows are split

@@ -1,4 +1,4 @@
-// The columns of J of one chunk: which of them need dual numbers, and which follow from the time since its
+// The columns of J of one chunk: those that need dual numbers, and those that follow from the time since its
 // start.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace ident {
 
-/// A column: `external` is its place in the caller's order, state first, then shared unknowns; -1 fills a
-/// pack.
+/// A column. `external` is its place in the order of the caller, state first, then shared unknowns; -1: fills
+/// up a pack.
 template <class Isa>
 struct KernelColumn {
   enum class Kind { dual, position, velocity, push, bias, shown_attitude, shown_velocity, shown_position };
@@ -17,7 +17,7 @@ struct KernelColumn {
   double derivative = 1.0;
 };
 
-/// Where a column of the caller's order stands.
+/// Index of a column of the caller in the kernel.
 template <class Isa>
 struct KernelPlace {
   int at = -1;
@@ -30,7 +30,7 @@ struct KernelColumns {
   using Column = KernelColumn<Isa>;
   using Kind = typename Column::Kind;
 
-  int columns = 0, packs = 0;  ///< packs: of those with dual numbers
+  int columns = 0, packs = 0;  ///< packs of columns with dual numbers
 
   KernelColumns(const ChunkTask& task, KernelPlace<Isa>* place, Column* column) {
     const StateLayout& layout = task.layout;
@@ -46,8 +46,7 @@ struct KernelColumns {
       if (seed.slot < kParameterCount &&
           place[layout.size + seed.direction].at < 0)  // once, for several slots
         add({layout.size + seed.direction, 0, Kind::dual, seed.derivative});
-    // The rest of the packs of dual numbers stays empty: sweeps are 32 columns wide, or 16 in single
-    // precision.
+    // The last packs of dual numbers are filled up: sweeps are 32 columns wide, or 16 in single precision.
     packs = task.exact ? 4 * ((columns + 31) / 32) : 2 * ((columns + 15) / 16);
     while (columns < 8 * packs) column[columns++] = {-1, 0, Kind::dual, 0.0};
     for (int i = 0; i < layout.size; ++i) {
@@ -73,9 +72,9 @@ struct KernelColumns {
     }
   }
 
-  // Where a chunk starts matters to nothing but the ground; how fast, to drag and what the flow touches; a
-  // push in the world reaches the accelerometer as it is unless that is turned. An error of what is
-  // shown adds to that.
+  // Columns that need no dual numbers. The position at the start matters to ground effect only, the velocity
+  // to drag and whatever the flow touches. A push along world axes reaches the accelerometer unchanged unless
+  // the IMU is turned. A slow error adds to what a sensor shows.
   static Kind kind_of(const ChunkTask& task, unsigned touches, int i) {
     const auto within = [&](int first) { return first >= 0 && i >= first && i < first + 3; };
     const StateLayout& layout = task.layout;
@@ -91,7 +90,7 @@ struct KernelColumns {
     return Kind::dual;
   }
 
-  // What the model touches at this point; drag counts as flow.
+  // What the model touches at these constants; linear drag counts as flow.
   static unsigned touched(const ChunkTask& task) {
     using S = Dual<1, Isa, float>;  // of this instruction set
     unsigned touches = EffectSet<S>(std::span<const S>(), task.active).touches();

@@ -58,7 +58,7 @@ class ChunkKernel {
     bool first = true;
     while (pack < packs_) {
       const int left = packs_ - pack;
-      // Three kinds only: each one is a whole copy of the model in the program.
+      // Three kinds only: each is a whole copy of the model in the program.
       if (task_.exact)
         sweep<Dual<4, Isa, double>>(pack, first, rows), pack += 4;
       else if (left >= 4)
@@ -80,7 +80,7 @@ class ChunkKernel {
   void sweep(int pack, bool first, Rows& rows) {
     constexpr int vectors = S::width / lanes;
     const int from = 8 * pack, to = from + S::width;
-    EffectMask effects = task_.active;  // those off their null values, and those of this sweep's directions
+    EffectMask effects = task_.active;  // active effects, and those of the directions of this sweep
     S p[kParameterCount], bias[3];
     for (int i = 0; i < kParameterCount; ++i) p[i] = S(task_.p.data()[i]);
     for (int k = 0; k < 3; ++k) bias[k] = S(task_.gyro_bias[static_cast<std::size_t>(k)]);
@@ -139,9 +139,8 @@ class ChunkKernel {
     }
   }
 
-  // Columns that need no dual numbers: where the chunk starts and how fast, a constant push in the world
-  // frame, a bias that adds to the rates as shown, and an error of what is shown. `residual`: of this
-  // sample, scaled like its row.
+  // Columns without dual numbers: position and velocity at the start, a constant push along world axes, a
+  // gyro bias, and slow errors. `residual`: of this sample, scaled like its row.
   template <class S>
   void analytic(Row& row, double t, const Vec4<S>& q, double scale, double residual) {
     const int channel = row.channel, axis = channel % 3;
@@ -185,7 +184,7 @@ class ChunkKernel {
     return 2 * (v[row] * v[column] + sign * w * v[third]);
   }
 
-  // End state of the analytic columns.
+  // Derivative of the end state over the columns without dual numbers.
   void analytic_end() {
     const double h = task_.t[task_.end] - task_.t[task_.begin];
     const StateLayout& layout = task_.layout;

@@ -1,11 +1,12 @@
-// Sums of products of rows of vectors: J'J over tiles of samples that stay in the nearest memory.
+// Sums of products of rows of vectors: J'J over tiles of samples that stay in the nearest cache.
 #pragma once
 
 #include "ident/core/dual.h"
 
 namespace ident {
 
-/// Rows of `columns` doubles, a multiple of the vector's; templated so that each instruction set has its own.
+/// Rows of `columns` doubles, a multiple of the width of a vector; templated so that each instruction set has
+/// its own.
 template <class Isa>
 class RowProducts {
  public:
@@ -15,7 +16,7 @@ class RowProducts {
   RowProducts(const Vector* rows, std::size_t count, int columns)
       : rows_(rows), count_(count), stride_(static_cast<std::size_t>(columns / lanes)), columns_(columns) {}
 
-  /// `sums`: as many rows as columns; what is right of the diagonal's vector stays as it was.
+  /// `sums` has as many rows as columns. What is right of the vector that holds the diagonal stays unchanged.
   void square(Vector* sums) const {
     constexpr std::size_t tile = 32;
     for (std::size_t i = 0; i < static_cast<std::size_t>(columns_) * stride_; ++i) sums[i] = Vector{};
@@ -32,7 +33,7 @@ class RowProducts {
   }
 
  private:
-  // Sums that the registers hold: of 32 or 16.
+  // Number of sums that the 32 or 16 registers hold.
   static constexpr int kRows = Isa::kBytes == 64 ? 8 : 4, kVectors = Isa::kBytes == 32 ? 3 : 2;
 
   // Products of kRows columns with the N vectors from `at` on, summed over samples.

@@ -1,4 +1,4 @@
-// The rows of J of one chunk, and what is made of all of them: J'J and leverages.
+// The rows of J of one chunk, with J'J and the leverages.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace ident {
 
-/// Memory that stays from chunk to chunk, one for each T, which bears Isa as well: no other build may share
-/// its code.
+/// Memory that is kept from chunk to chunk, one for each T. T bears Isa as well: no other build may share its
+/// code.
 template <class Isa, class T>
 T* kernel_table(std::size_t size) {
   thread_local std::vector<T> memory;
@@ -17,7 +17,7 @@ T* kernel_table(std::size_t size) {
   return memory.data();
 }
 
-/// Where the columns of J stand: `packs` of eight with dual numbers first, of `columns` in all.
+/// Layout of the columns of J: `packs` of eight with dual numbers first, of `columns` in all.
 template <class Isa>
 struct KernelPlan {
   const KernelPlace<Isa>* place;
@@ -31,7 +31,7 @@ class KernelRows {
   using Vector = typename RowProducts<Isa>::Vector;
   static constexpr int lanes = RowProducts<Isa>::lanes;
 
-  /// What a row has beside its slopes over the columns with dual numbers: four others at most.
+  /// Entries of a row beside those with dual numbers: four at most.
   struct Row {
     int channel = 0, others = 0;
     int column[4] = {};
@@ -59,11 +59,11 @@ class KernelRows {
     square_others(out);
   }
 
-  /// Leverage of each sample with respect to the local state: j P j'. Where a channel has many, every
+  /// Leverage j P j' of each sample with respect to the local state. In a channel with many samples every
   /// third may stand for its neighbours.
   void leverages(ChunkResult& out) const {
     constexpr int kEvery = 3, kMany = 30;
-    constexpr std::size_t kTogether = 16 / lanes;  // sums that do not wait for each other; packs come in twos
+    constexpr std::size_t kTogether = 16 / lanes;  // independent sums; packs come in twos
     int seen[kChannels] = {}, taken[kChannels] = {};
     double sum_of[kChannels] = {};
     const int n = task_.layout.size;
@@ -104,7 +104,7 @@ class KernelRows {
       }
       for (int e = 0; e < row.others; ++e) {
         const int a = of_.column[row.column[e]].external;
-        if (a >= n) continue;  // a bias is no state
+        if (a >= n) continue;  // a bias is not part of the state
         add(2 * row.slope[e], a);
         for (int f = 0; f < row.others; ++f)
           total += row.slope[e] * row.slope[f] * Q[(row.column[e] - first) * others + row.column[f] - first];
@@ -138,7 +138,7 @@ class KernelRows {
     double value;
   };
 
-  // The rest of it: products of the columns without dual numbers.
+  // The rest of A: products of the columns without dual numbers.
   void square_others(ChunkResult& out) const {
     const int first = 8 * of_.packs, others = of_.columns - first;
     const auto size = static_cast<std::size_t>(others);

@@ -1,18 +1,18 @@
-// A chunk's state with derivatives: seeded at its start, its slopes taken off at its end.
+// The state of a chunk with derivatives: seeded at its start, read off at its end.
 #pragma once
 
 #include "ident/flight/kernel/kernel_columns.h"
 
 namespace ident {
 
-/// The columns [from, from + S::width) of one chunk carry derivatives.
+/// Seeds and reads the derivatives of the columns [from, from + S::width).
 template <class Isa>
 class KernelState {
  public:
   KernelState(const ChunkTask& task, const KernelPlace<Isa>* place, const KernelColumn<Isa>* column)
       : task_(task), place_(place), column_(column), d_(task.layout.size + task.thetas) {}
 
-  /// The start, each component with its own direction.
+  /// The state at the start, each component with its own direction.
   template <class S>
   FlightState<S> seeded(int from, int to) const {
     const FlightState<double>& x = task_.x0;
@@ -51,7 +51,7 @@ class KernelState {
     return s;
   }
 
-  /// Rows of E: derivative of the end.
+  /// Stores rows of E, the derivative of the end state.
   template <class S>
   void store_end(const FlightState<S>& end, int from, double* E) const {
     const StateLayout& layout = task_.layout;
@@ -73,7 +73,7 @@ class KernelState {
     }
   }
 
-  /// The numbers alone.
+  /// The values without derivatives.
   template <class S>
   FlightState<double> values(const FlightState<S>& s) const {
     FlightState<double> x = task_.x0;

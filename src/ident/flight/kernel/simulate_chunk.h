@@ -1,4 +1,4 @@
-// A chunk of flight simulated on any scalar, its predictions handed out row by row.
+// Simulates a chunk of flight on any scalar and hands out its predictions row by row.
 #pragma once
 
 #include "ident/core/dual.h"
@@ -75,7 +75,7 @@ class ChunkRun {
  private:
   std::size_t rows_end() const { return task_.rows; }
 
-  // Speeds that were measured are no smoother than their rows.
+  // Measured speeds are no smoother than their rows: no long steps with them.
   bool long_steps() const { return task_.steps == Steps::longest && task_.inputs->commanded(); }
   double longest_step() const {
     return long_steps() && kLongStep > task_.max_step ? kLongStep : task_.max_step;
@@ -88,7 +88,7 @@ class ChunkRun {
     return next;
   }
 
-  // Rows that one step passes.
+  // Predicts the rows that lie within one step.
   template <class Sink>
   void rows_within(std::size_t begin, std::size_t end, const WithinStep<S>& step, double from, double h,
                    Sink& sink) {

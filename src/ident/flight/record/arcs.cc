@@ -1,4 +1,4 @@
-// Which rows of a log fly, and where holes cut them.
+// Finds the rows of a log in flight, and the holes that cut them.
 #include "ident/flight/record/arcs.h"
 
 #include <fmt/format.h>
@@ -12,12 +12,13 @@
 namespace ident {
 namespace {
 
-constexpr double kGroundShare = 0.25;  ///< of the median collective: below it the vehicle is not taken to fly
-constexpr double kPushOver = 0.5;      ///< s: so short a time below it is flown
-constexpr double kLiftOff = 1.0;       ///< s after the ground, and before it, in which the ground may push
-// With rows the commands are missing: so many steps without one, at least so many seconds, end an arc.
+constexpr double kGroundShare = 0.25;  ///< of the median collective; below it the vehicle is on the ground
+constexpr double kPushOver = 0.5;      ///< s; a shorter time below it belongs to flight
+constexpr double kLiftOff = 1.0;       ///< s after and before the ground, in which the ground may push
+// With missing rows commands are missing: a gap of so many usual steps, and of at least so many seconds, ends
+// an arc.
 constexpr double kMissedRows = 5.0, kShortestGap = 0.03;
-constexpr double kEnoughLeft = 0.3;  // of the flight, in such pieces
+constexpr double kEnoughLeft = 0.3;  // least share of the flight in such pieces
 
 // Collective per row: mean command, or mean squared rotor speed.
 std::vector<double> collective(const FlightLog& log) {
@@ -68,8 +69,8 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
   return fly;
 }
 
-// Rows that hold nothing but time end an arc when they last; so do jumps of time. What the motors do in the
-// first `history` seconds after a jump, or after the log's start, was commanded before and is not in the log.
+// Empty rows and jumps of time end an arc when they last. What the motors do in the first `history` seconds
+// after a jump, or after the start of the log, was commanded before it and is not in the log.
 Pieces pieces(const FlightLog& log, std::vector<bool> fly, double gap, double history) {
   double known_from = log.t.front() + history;
   const auto breaks_before = [&](std::size_t i) {
@@ -97,7 +98,7 @@ Pieces pieces(const FlightLog& log, std::vector<bool> fly, double gap, double hi
   return out;
 }
 
-// Between rows that hold a command: messages of several sensors come in rows of their own.
+// Usual time between rows that hold a command: messages of several sensors come in rows of their own.
 double usual_step(const FlightLog& log) {
   std::vector<double> steps;
   double last = kNaN;

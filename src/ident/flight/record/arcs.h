@@ -1,4 +1,4 @@
-// The parts of a log that are flight without a hole.
+// Cuts a log into arcs: uninterrupted pieces in flight.
 #pragma once
 
 #include <utility>
@@ -11,9 +11,9 @@ namespace ident {
 /// Rows [first, second).
 using Pieces = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// What flies of a log, in pieces without a hole, each from `history` seconds after where commands are known.
-/// Where that would cost much of the flight, commands are held over holes of up to `longest_gap` seconds
-/// instead, with a warning.
+/// The rows of a log in flight, in pieces without a hole. Each begins `history` seconds after the commands
+/// are known. Where that would cost much of the flight, commands are held over holes of up to `longest_gap`
+/// seconds instead, with a warning.
 Pieces whole_pieces(const FlightLog& log, double history, double longest_gap, std::vector<Warning>& warnings);
 
 }  // namespace ident

@@ -1,4 +1,4 @@
-// The unit goes by the sensor.
+// Units by sensor.
 #include "ident/flight/record/channel_units.h"
 
 #include "ident/flight/kernel/kernel.h"

@@ -1,5 +1,5 @@
-// A command that is held over lost rows is late by half of these: of 300 losses of 2 to 4 rows in 40 s the
-// motors come out 1 % too fast.
+// Fills in commands of lost rows. Held over them a command is late by half of the gap: 300 losses of 2 to 4
+// rows in 40 s make motors come out 1 % too fast.
 #include "ident/flight/record/command_history.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace ident {
 namespace {
 
-constexpr double kLost = 1.6;     // usual steps from one row to the next, or more: some are lost
-constexpr double kLongest = 0.1;  // s: beyond it the line tells nothing
-constexpr double kRegular = 0.2;  // at most that share of steps is long, else that is how it was logged
+constexpr double kLost = 1.6;     // usual steps between two rows, above which rows are lost
+constexpr double kLongest = 0.1;  // s; a line over more says nothing
+constexpr double kRegular = 0.2;  // largest share of long steps in a regular log
 
-// The rows after which some are lost: commands that come anew in the very next row, and yet late. Where other
-// messages come in between nothing is lost.
+// The rows after which rows are lost: new commands come in the very next row, but late. Where other messages
+// come in between, nothing is lost.
 std::vector<bool> lost_after(const FlightLog& log, const NewSamples& anew) {
   std::vector<bool> lost(log.rows());
   std::size_t count = 0;
@@ -61,7 +61,7 @@ std::vector<HeldCommand> command_history(const FlightLog& log, double from, doub
 
 std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps) {
   const NewSamples anew = new_samples(log.t, log.delta);
-  // Where they never came together, or not by then, there are no lines.
+  // Where the commands of all rotors never come together, or not by then, there are no lines.
   if (anew.rows.empty() || log.t[anew.rows.front()] > to) return command_history(log, from, to);
   std::vector<HeldCommand> history(log.delta.size());
   for (std::size_t k = 0; k < anew.rows.size() && log.t[anew.rows[k]] <= to; ++k) {

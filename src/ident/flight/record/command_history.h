@@ -1,4 +1,4 @@
-// Commands of a log as the motors are taken to have got them.
+// The commands of a log over time, as the motors received them.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 namespace ident {
 
 /// The commands of each rotor over these times (s), held from row to row; before and after, the nearest.
-/// Where some rows of an otherwise regular log are lost, the commands that went with them are taken from the
-/// line between those before and after.
+/// Where single rows of a regular log are lost, their commands are taken from the line between those before
+/// and after.
 std::vector<HeldCommand> command_history(const FlightLog& log, double from, double to);
 
-/// The same as if commands went on from one to the next in so many steps along a line.
+/// The same with commands that go along a line from one to the next, in so many steps.
 std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps);
 
 }  // namespace ident

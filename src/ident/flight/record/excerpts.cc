@@ -1,4 +1,4 @@
-// Parts of a record: held-out flight, and excerpts.
+// Parts of a record: held-out flight, excerpts, pieces of arcs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,7 +70,7 @@ FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds
     excerpt.arcs.push_back(arc.piece(begin, end));
     excerpt.duration += arc.t[end - 1] - arc.t[begin];
   };
-  // Short arcs are taken whole, some of them: the first of each log, and the next as often as the share asks.
+  // Of short arcs some are taken whole: the first of each log, and later ones as often as the share asks.
   std::vector<double> owed(static_cast<std::size_t>(record.logs), std::numeric_limits<double>::infinity());
   for (const FlightArc& arc : record.arcs) {
     const double first = arc.t.front(), length = arc.t.back() - first;

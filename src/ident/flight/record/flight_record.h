@@ -13,12 +13,12 @@
 
 namespace ident {
 
-/// What is left of the noise of smoothed rotor speeds, by mode and row.
+/// The error that remains in smoothed rotor speeds, by mode and row.
 struct SpeedErrors {
   std::vector<double> t;                      ///< s
   std::vector<std::vector<double>> variance;  ///< of the speed, (rad/s)^2
-  std::vector<std::vector<double>> density;   ///< of what was measured, (rad/s)^2 s: variance by distance
-  std::vector<std::vector<double>> other;     ///< what another smoothing says, against this one, rad/s
+  std::vector<std::vector<double>> density;   ///< of the sensor noise, (rad/s)^2 s: variance by distance
+  std::vector<std::vector<double>> other;     ///< difference of another smoothing to this one, rad/s
   Eigen::MatrixXd
       modes;  ///< [mode][rotor], orthogonal: errors of modes have nothing in common. Empty: rotors
 };
@@ -33,12 +33,12 @@ struct FlightArc {
   std::shared_ptr<const FlightInputs> rougher;      ///< where speeds are the input: the same, smoothed less
   std::shared_ptr<const SpeedErrors> speed_errors;  ///< where speeds are the input and have noise
   std::vector<BodyState<double>> body;              ///< [row] as read off the measurements
-  bool stood = false;  ///< some motor may stand still where it begins: rows with one off were left out before
+  bool stood = false;  ///< a motor may stand still at its start: rows with a motor off were left out before
   std::vector<MotorState<double>> motors;  ///< [row][rotor] measured, or simulated from the commands
 
   std::size_t rows() const { return t.size(); }
   std::size_t rotors() const { return motors.size() / rows(); }
-  /// To start from at a row; nothing acts from outside.
+  /// The state to start from at a row, without accelerations from outside.
   FlightState<double> start(std::size_t row) const;
   /// The rows [begin, end) as an arc of their own.
   FlightArc piece(std::size_t begin, std::size_t end) const;
@@ -59,7 +59,7 @@ struct FlightRecord {
   std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
   SlowErrors slow{};                      ///< to start from; see slow_errors()
   double interval = 0.0;                  ///< median time between rows, s
-  double duration = 0.0;                  ///< of all arcs, s
+  double duration = 0.0;                  ///< total of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   double turns_apart =
       0.0;  ///< s that rates and attitude were apart in the logs: one of them was not in time
@@ -68,24 +68,24 @@ struct FlightRecord {
                           ///< errors of speeds do is reckoned by them
 };
 
-/// Throws DataError where a path was logged, but nothing of how the vehicle turned along it: a fit
-/// does not find that.
+/// Throws DataError where a path was logged, but neither rates nor attitude: a fit cannot find how the
+/// vehicle turned.
 void require_turning(const Signals& logged);
 
 /// The record without its arcs.
 FlightRecord without_arcs(const FlightRecord& record);
 
-/// Share of each log to which a model is fitted that is judged on the rest.
+/// Share of each log to which a model is fitted; it is judged on the rest.
 inline constexpr double kTrainingShare = 0.7;
 
 /// End (s) of the first `training_share` of an arc's time.
 double training_end(const FlightArc& arc, double training_share);
 
-/// What is left of every arc after `training_share` of its time.
+/// The rest of every arc after `training_share` of its time.
 FlightRecord held_out_of(const FlightRecord& record, double training_share);
 
-/// Stretches of about that many seconds, evenly spread, that make `share` of the flight; of short arcs some,
-/// whole. Something of every log.
+/// Stretches of about `seconds` each, evenly spread, that make `share` of the flight. Some short arcs are
+/// taken whole. Every log has a part.
 FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds);
 
 /// Name of a channel: p, ax, attitude x, omega1.

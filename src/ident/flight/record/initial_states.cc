@@ -1,4 +1,4 @@
-// Noise by differences, states by interpolation and averages.
+// Noise levels by differences, states by interpolation and averages.
 #include "ident/flight/record/initial_states.h"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ double filled(const std::vector<double>& column, std::size_t i, double otherwise
   return column.empty() || !std::isfinite(column[i]) ? otherwise : column[i];
 }
 
-// White noise by second differences of consecutive samples, robust against jumps; not below that of steps in
-// which the sensor counts, which the least of its changes show.
+// White noise by the median of second differences, which is robust against jumps. Not below the resolution of
+// the sensor, which its smallest changes show.
 double noise_of(const std::vector<double>& second_differences, std::vector<double> changes) {
-  constexpr double kRepeats = 0.1;  // of the samples: without steps no two are the same
-  constexpr double kLeast = 0.05;   // share of the changes that are no larger than a step
+  constexpr double kRepeats = 0.1;  // of the samples; without resolution no two are the same
+  constexpr double kLeast = 0.05;   // share of the changes that are at most one step of the resolution
   if (second_differences.empty()) return kNaN;
   const double repeats = static_cast<double>(std::erase(changes, 0.0));
   const bool steps = repeats > kRepeats * (repeats + static_cast<double>(changes.size())) && !changes.empty();
@@ -64,8 +64,8 @@ double attitude_noise(const FlightRecord& record, int axis) {
   return noise_of(size, std::move(changes));
 }
 
-// Means over about as many seconds to either side as make half of that noise at usual accelerations: near the
-// ground, a height off by its noise may be one at which nothing flies.
+// Means over the time that halves the noise at usual accelerations. Near the ground a height that is off by
+// its noise may be one from which the simulation diverges.
 std::vector<double> averaged(const std::vector<double>& t, const std::vector<double>& column, double noise) {
   constexpr double kAcceleration = 5.0, kLongest = 0.05;  // m/s^2, s
   if (column.empty()) return column;
@@ -100,7 +100,7 @@ void simulate_motors(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
   }
 }
 
-// What was measured of the body of an arc, without gaps; empty columns where nothing was.
+// Measurements of the body of an arc, without gaps; empty columns where nothing was measured.
 struct BodyColumns {
   std::array<std::vector<double>, 3> w, v, x;
   std::array<std::vector<double>, 4> q;
@@ -193,7 +193,7 @@ void set_noise_and_motor_start(FlightRecord& record, std::span<const double> p) 
         turn ? attitude_noise(record, channel - kAttitude) : noise_by_differences(record, channel);
     record.sigma[c] = std::isfinite(s) ? std::max(s, 1e-9) : 1.0;
   });
-  // One level for the axes of a sensor: a quiet axis must not be trusted beyond its sensor.
+  // The axes of a sensor have similar levels: a quiet axis must not be trusted beyond its sensor.
   for (const int group : {int{kGyro}, int{kForce}, int{kAttitude}, int{kVelocity}, int{kPosition}}) {
     const auto g = static_cast<std::size_t>(group);
     const double top = std::max({record.sigma[g], record.sigma[g + 1], record.sigma[g + 2]});

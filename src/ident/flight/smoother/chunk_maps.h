@@ -25,7 +25,7 @@ inline ConstRowMap E(const ChunkResult& r, int n) {
   return {r.E.data(), n, static_cast<Eigen::Index>(r.g.size())};
 }
 
-/// For products by the best instruction set; `column`: where they begin.
+/// Rows for the products of dense_rows.h; `column`: first column.
 inline Rows rows_of(RowMatrix& M, int column = 0) { return {M.data() + column, M.cols()}; }
 inline ConstRows rows_in(const RowMatrix& M, int column = 0) { return {M.data() + column, M.cols()}; }
 inline ConstRows rows_in(const ConstRowMap& M) { return {M.data(), M.cols()}; }

@@ -1,4 +1,4 @@
-// Back from an elimination: covariances, steps and slopes of the states.
+// Back substitution after an elimination: covariances, steps and slopes of the states.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Covariance of the state of chunk k, from what was eliminated before it.
+// Covariance of the state of chunk k from what was eliminated before it.
 chunk::RowMatrix FlightSmoother::own_covariance(const Elimination& el, std::size_t k) const {
   const int n = record_->layout.size, columns = padded(n);
   const DenseRows& dense = dense_rows();
@@ -25,8 +25,8 @@ chunk::RowMatrix FlightSmoother::own_covariance(const Elimination& el, std::size
   return P;
 }
 
-// Calls `visit` for all chunks, the ends of each chain in the reverse order of their elimination, with the
-// one that was next in the sweep; where ends meet there is none.
+// Visits all chunks of each chain in the reverse order of their elimination, each with the neighbour that was
+// next in the sweep; the meeting point has none.
 void FlightSmoother::outward(
     const std::function<void(std::size_t, std::optional<std::size_t>)>& visit) const {
   in_parallel(chains_.size(), [&](std::size_t c) { visit(chains_[c].meet, std::nullopt); });
@@ -39,7 +39,7 @@ void FlightSmoother::outward(
   });
 }
 
-// By the recursion outward.
+// By recursion from the meeting point outward.
 const FlightSmoother::Covariances& FlightSmoother::covariances_by(std::size_t elimination) {
   Covariances& all = covariances_;
   if (all.of == elimination) return all;
@@ -60,11 +60,11 @@ const FlightSmoother::Covariances& FlightSmoother::covariances_by(std::size_t el
   return all;
 }
 
-// Steps of the shared unknowns to the optimum of the last linearisation, priors included.
+// Step of the shared unknowns to the optimum of the last linearisation, priors included.
 VectorXd FlightSmoother::shared_optimum() const {
   if (theta_->size() == 0) return VectorXd(0);
   const PriorTerms prior = theta_->prior(trial_u_);
-  // Directions that the data do not tell stay where they are: no further than some units without a prior.
+  // Undetermined directions stay where they are: without a prior they move by a few units at most.
   const MatrixXd H = reduced_.S + prior.information(1e-2);
   const VectorXd s = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   MatrixXd scaled = s.asDiagonal() * H * s.asDiagonal();
@@ -73,7 +73,7 @@ VectorXd FlightSmoother::shared_optimum() const {
   return -(s.asDiagonal() * Eigen::LLT<MatrixXd>(scaled).solve(VectorXd(s.asDiagonal() * g)));
 }
 
-// Steps of the states for that of the shared unknowns, by an elimination which may have held it.
+// Steps of the states that follow a step of the shared unknowns, by an elimination that may have held it.
 std::vector<VectorXd> FlightSmoother::state_steps(const Elimination& el, const VectorXd& du) const {
   std::vector<VectorXd> dx(places_.size());
   outward([&](std::size_t k, std::optional<std::size_t> next) {
@@ -84,7 +84,7 @@ std::vector<VectorXd> FlightSmoother::state_steps(const Elimination& el, const V
   return dx;
 }
 
-// Derivative of the accepted states, at their best, over the shared unknowns; rows are padded.
+// Derivative of the accepted states, at their optimum, over the shared unknowns; rows are padded.
 std::vector<chunk::RowMatrix> FlightSmoother::state_slopes() const {
   const int n = record_->layout.size, m = padded(static_cast<int>(shared()));
   const DenseRows& dense = dense_rows();

@@ -1,4 +1,4 @@
-// The elimination of all states, of a long chain from both ends at once.
+// Eliminates all states in time order, those of a long chain from both ends at once.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ FlightSmoother::Chain FlightSmoother::chain_of(std::size_t begin, std::size_t en
   return {begin, is_long ? begin + (end - begin) / 2 : end - 1, end};
 }
 
-// One end of a chain on its way through elimination. Matrices are kept row by row, [D | B f] over states and
-// shared unknowns, the second part from a column that is a multiple of kRowPad; the last column is the
+// One end of a chain during elimination. Matrices are kept row by row, [D | B f] over states and shared
+// unknowns; the second part begins at a column that is a multiple of kRowPad, and its last column is the
 // gradient.
 struct FlightSmoother::Sweep {
   using Matrix = chunk::RowMatrix;
@@ -57,8 +57,8 @@ struct FlightSmoother::Sweep {
   double cost = 0.0, fall = 0.0, log_det = 0.0;
 };
 
-// Damping only for states that nothing at all determines, those whose pivot is lost to rounding: of any other
-// it would pass for information on the constants that move it.
+// Damps only states whose pivot is lost to rounding, which nothing determines. Damping of any other state
+// would count as information on the constants that move it.
 void FlightSmoother::damp_undetermined(chunk::RowMatrix& D, int n) {
   constexpr double kRounding = 1e-13, kDamping = 1e-10;
   MatrixXd L = MatrixXd::Zero(n, n);
@@ -74,7 +74,7 @@ void FlightSmoother::damp_undetermined(chunk::RowMatrix& D, int n) {
   }
 }
 
-// What is known of the state where an arc begins.
+// Adds the prior information on the state where an arc begins.
 void FlightSmoother::add_start(std::size_t k, Sweep& at, bool held) const {
   const VectorXd info = start_information(k);
   VectorXd x = outside(k);
@@ -92,7 +92,7 @@ void FlightSmoother::add_start(std::size_t k, Sweep& at, bool held) const {
   at.g() -= W_slope.transpose() * x;
 }
 
-// Begins chunk k: what the sweep passed to it, and what its rows say of its state.
+// Begins chunk k: what the sweep passed on to it, and the information of its rows.
 void FlightSmoother::add_rows(std::size_t k, Sweep& at, bool held) const {
   const int n = at.n, own = theta_->size();
   const ChunkResult& r = results_[k];
@@ -109,8 +109,8 @@ void FlightSmoother::add_rows(std::size_t k, Sweep& at, bool held) const {
   at.cost += r.cost;
 }
 
-// Adds the link of chunk k to the next one to the block of the one that the sweep is at, and what it means
-// for the other one to that.
+// Adds the link from chunk k to the next: its part for the chunk that the sweep is at, and its part for the
+// neighbour.
 void FlightSmoother::add_link(std::size_t k, Sweep& at, bool forward, bool held) {
   const int n = at.n, m = at.m, from = at.from, right = from + at.shared;
   chunk::RowMatrix& slope = linearised_.E[k];
@@ -137,7 +137,7 @@ void FlightSmoother::add_link(std::size_t k, Sweep& at, bool forward, bool held)
     at.U.leftCols(n) = -at.WE.leftCols(n);
 }
 
-// Eliminates chunk k, which may be linked to the one that is next in the sweep.
+// Eliminates chunk k. `linked`: to the chunk that is next in the sweep.
 void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
   const int n = at.n, m = at.m, from = at.from, right = from + at.shared;
   Elimination& el = last();
@@ -169,7 +169,7 @@ void FlightSmoother::eliminate_chunk(std::size_t k, Sweep& at, bool linked) {
   el.f[k] = GBf.col(from + m);
 }
 
-// Eliminates the chunks of a chain on one side of where its ends meet; null where there is none.
+// Eliminates the chunks of a chain on one side of the meeting point; null where there is none.
 std::unique_ptr<FlightSmoother::Sweep> FlightSmoother::sweep(const Chain& chain, bool forward, bool held) {
   if ((forward ? chain.begin : chain.end - 1) == chain.meet) return nullptr;
   auto at = std::make_unique<Sweep>(record_->layout.size, held ? 0 : static_cast<int>(shared()));
@@ -181,7 +181,8 @@ std::unique_ptr<FlightSmoother::Sweep> FlightSmoother::sweep(const Chain& chain,
   return at;
 }
 
-// The slopes of all links, and what rows say of theta in each chain.
+// Prepares what all eliminations of a linearisation share: slopes of the links, and the information of the
+// rows on theta.
 void FlightSmoother::begin_eliminations() {
   if (linearised_.stands) return;
   const Index own = theta_->size();
@@ -200,8 +201,8 @@ void FlightSmoother::begin_eliminations() {
   });
 }
 
-// A step of the shared unknowns that the next elimination holds, and mostly some more. Slopes over profiles
-// change with the noise.
+// Prepares a step of the shared unknowns that the next eliminations hold. Slopes over profiles change with
+// the noise.
 void FlightSmoother::hold(const VectorXd& du) {
   if (profiles_.empty() && linearised_.held.size() == du.size() && linearised_.held == du) return;
   const Index n = record_->layout.size, from = padded(record_->layout.size);

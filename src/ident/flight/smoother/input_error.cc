@@ -1,4 +1,4 @@
-// Thrust and reaction torque of rotors whose speeds are a little off.
+// Accelerations that result from small errors of the rotor speeds, mode by mode.
 #include "ident/flight/smoother/input_error.h"
 
 #include <Eigen/Geometry>
@@ -9,13 +9,13 @@
 namespace ident {
 namespace {
 
-/// Means over rows of what is known of a mode.
+/// Means over rows of the error of one mode.
 struct ModeError {
   double variance = 0, density = 0;
   double other = 0;  // what another smoothing would say, against this one
 };
 
-/// Rows [first, last) of what is known of speeds that lie in the rows [begin, end] of an arc.
+/// Rows [first, last) of the speed errors within the rows [begin, end] of an arc.
 struct Span {
   std::size_t first, last;
   double rows() const { return std::max<double>(1.0, static_cast<double>(last - first)); }
@@ -37,8 +37,8 @@ ModeError mean_error(const SpeedErrors& errors, std::size_t mode, const Span& sp
           mean_of(errors.other[mode], span)};
 }
 
-/// What an error of one rad/s in a mode does to the accelerations. Not by the spin-up: what that does to the
-/// yaw rate goes with the error itself and is over before an acceleration that is even for a while could hold
+/// Accelerations per rad/s of error in a mode. Not those by the reaction to a change of speed: this acts on
+/// the yaw rate together with the error itself, and is over before a constant acceleration could represent
 /// it.
 AccelerationVariance slope_over_mode(const FlightRecord& record, const FlightArc& arc, std::size_t mode,
                                      const Span& span, const Eigen::Matrix3d& R) {

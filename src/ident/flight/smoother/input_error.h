@@ -1,4 +1,4 @@
-// What is left of the noise of measured rotor speeds, as accelerations that nobody commanded.
+// Error of measured rotor speeds as the input, expressed as accelerations that were not commanded.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,19 +7,22 @@
 
 namespace ident {
 
-/// Of the angular acceleration about the body's axes, (rad/s^2)^2, then of the acceleration, (m/s^2)^2.
+/// Variance of the angular acceleration about the body axes, (rad/s^2)^2, then of the acceleration,
+/// (m/s^2)^2.
 using AccelerationVariance = Eigen::Matrix<double, 6, 1>;
 
-/// Variance of the mean acceleration over the rows [begin, end] of an arc by the error of its speeds, with
-/// the record's constants; the acceleration along `axes`. Zero where commands are the input.
+/// Variance of the mean acceleration over the rows [begin, end] of an arc due to the error of its rotor
+/// speeds, with the constants of the record; the acceleration is along `axes`. Zero where commands are the
+/// input.
 ///
-/// The error of a smoothed random walk has the spectrum R/(1 + (w/w_c)^4) with R the density of the noise, so
-/// that a mean over h seconds varies by R/h, and never by more than the error itself. To that comes what
-/// another smoothing would say: where motors are suddenly driven, an error is none by chance.
+/// The error of a smoothed random walk has the spectrum R/(1 + (w/w_c)^4), with R the density of the sensor
+/// noise: its mean over h seconds has the variance R/h, at most that of the error itself. Added to it is the
+/// squared difference to another smoothing, because where motors are driven suddenly the error is not random.
 AccelerationVariance input_error(const FlightRecord& record, const FlightArc& arc, std::size_t begin,
                                  std::size_t end, GustAxes axes);
 
-/// The same for the accelerations themselves, in the mean of the record, and how long they last, s.
+/// The same for the accelerations themselves: their mean variance over the record, and their correlation
+/// time, s.
 struct InputErrorProcess {
   AccelerationVariance variance = AccelerationVariance::Zero();
   double time = 0.0;

@@ -1,4 +1,4 @@
-// What is known where an arc begins, and the links between chunks: slopes and weights.
+// Prior information on the state where an arc begins, and the links between chunks: their slopes and weights.
 #include <algorithm>
 #include <cmath>
 
@@ -18,25 +18,27 @@ double length(const FlightRecord& record, const ChunkPlace& place) {
   return arc.t[place.end] - arc.t[place.begin];
 }
 
-// Far below what one chunk tells of an acceleration from outside, or of what is shown: no noise means none.
+// Variances that stand for "no such noise": far below what one chunk can tell of an acceleration from outside
+// ((rad/s^2)^2 and (m/s^2)^2) or of a slow error.
 constexpr double kLeastOutside = 1e-10, kLeastShown = 1e-14;
 
-// The motors' noise reaches zero. At the floor of the other states single precision would then speak through
-// their links, and the diagnosis name what is rounding.
+// Floor of the links of rotor speeds, as a multiple of that of the other states. The noise of motors may be
+// zero; at the floor of the other states the rounding of single precision would then act through these links,
+// and a diagnosis would name it.
 constexpr double kMotorFloor = 100.0;
 
-// What is known beforehand of what an arc does not measure: 10 rad/s, 1 rad, 20 m/s, 100 m; of a rotor, more
-// than four of which leave the motion alone as they change against each other, 30 rad/s and 3000 rad/s^2.
+// Information on states that an arc does not measure: 10 rad/s, 1 rad, 20 m/s, 100 m. Of more than four
+// rotors some combinations leave the motion unchanged: 30 rad/s and 3000 rad/s^2.
 constexpr double kUnseenRate = 1e-2, kUnseenAttitude = 1.0, kUnseenVelocity = 2.5e-3, kUnseenPlace = 1e-4;
-constexpr int kAllTold = 4;  // rotors, by the motion alone
+constexpr int kAllTold = 4;  // rotors whose speeds the motion alone determines
 constexpr double kUnseenSpeed = 1e-3, kUnseenSpeeding = 1e-7;
-// Of four, where rates and forces are all that tells of them, and that may come ten times as slowly as motors
-// settle, and of all where some may stand still and the arc may be short: 300 rad/s and 30000 rad/s^2, for
-// thrust is no line over so much.
+// Weaker information, 300 rad/s and 30000 rad/s^2, where speeds are hardly determined: of up to four rotors
+// when only rates and forces were logged, whose samples may be ten times as far apart as motors settle; of
+// all rotors when some may stand still. Thrust is not linear over larger steps.
 constexpr double kHardlySeenSpeed = 1e-5, kHardlySeenSpeeding = 1e-9;
-// Of any other that was not measured, and that is over with a change before the next row: how its speed
-// changed just before, by half of the usual speed in the time of its lag. No row tells, and so much says
-// nothing of the scale of speeds.
+// A motor that settles within a row leaves no trace of how its speed was changing when the arc began. The
+// rate of its speed is then bounded by half of the usual speed within its lag, relative to the scale of
+// speeds.
 constexpr double kOfItsSpeed = 0.5;
 
 double usual_speed(const FlightArc& arc, std::size_t rotor) {
@@ -53,8 +55,8 @@ std::array<bool, kChannels> measured_in(const FlightArc& arc) {
 
 }  // namespace
 
-// Information on the state at the start of an arc that stands in for what is not measured anywhere in it: a
-// state that nothing tells would take all digits of the others with it.
+// Information on those parts of the state at the start of an arc that no sensor of the arc measures. An
+// undetermined state would take the precision of all others with it.
 VectorXd FlightSmoother::unseen_in(const FlightArc& arc) const {
   const StateLayout& layout = record_->layout;
   const std::array<bool, kChannels> seen = measured_in(arc);
@@ -90,7 +92,7 @@ const AirNoise& FlightSmoother::air_of(std::size_t k) const {
   return noise_.in_log(record_->arcs[static_cast<std::size_t>(places_[k].arc)].log);
 }
 
-// Parts of the state of chunk k that follow a Gauss-Markov process from one chunk to the next.
+// The parts of the state of chunk k that follow a Gauss-Markov process.
 std::array<FlightSmoother::Process, 2 + kShownGroups> FlightSmoother::processes(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const AirNoise& air = air_of(k);
@@ -101,7 +103,7 @@ std::array<FlightSmoother::Process, 2 + kShownGroups> FlightSmoother::processes(
   return all;
 }
 
-// Share of each state component that is left at the start of the next chunk.
+// Share of each component of the state that is carried over to the next chunk.
 VectorXd FlightSmoother::carried(std::size_t k) const {
   VectorXd share = VectorXd::Ones(record_->layout.size);
   const double h = length(*record_, places_[k]);
@@ -123,7 +125,7 @@ double FlightSmoother::input_error(std::size_t k, int axis) const {
   return input_errors_.empty() || axis < 0 ? 0.0 : input_errors_[k][axis];
 }
 
-// What the error of the input adds to the variance of a link: it is another one in every chunk.
+// Variance that the error of the input adds to a link: the error is independent from chunk to chunk.
 double FlightSmoother::new_error(std::size_t k, int axis, double carried) const {
   return input_error(k + 1, axis) + carried * carried * input_error(k, axis);
 }
@@ -139,7 +141,7 @@ VectorXd FlightSmoother::start_information(std::size_t k) const {
   return info;
 }
 
-// What follows a process, within the local state of chunk k.
+// The parts that follow a process, at their places in the local state of chunk k.
 VectorXd FlightSmoother::outside(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   VectorXd x = VectorXd::Zero(layout.size);
@@ -150,8 +152,8 @@ VectorXd FlightSmoother::outside(std::size_t k) const {
   return x;
 }
 
-// Rotor speeds that nobody measured are known up to a scale, that of km: its slot among the shared unknowns,
-// and by what share of themselves speeds change with a unit of it.
+// Rotor speeds that were not measured are known up to a scale, which is km. Gives the slot of km among the
+// shared unknowns and the relative change of the speeds with one unit of it.
 std::optional<FlightSmoother::SpeedScale> FlightSmoother::scale_of_speeds() const {
   const std::vector<FreeConstant>& constants = theta_->constants();
   const auto km = std::ranges::find(constants, int{param::km}, &FreeConstant::index);
@@ -160,9 +162,9 @@ std::optional<FlightSmoother::SpeedScale> FlightSmoother::scale_of_speeds() cons
   return SpeedScale{slot, theta_->slope(trial_u_, slot) / theta_->physical(trial_u_, slot)};
 }
 
-// How what is expected of the state at the start of an arc moves with the shared unknowns: accelerations by
-// their profiles, rotor speeds with their scale. What stands in for speeds that nothing tells would else tell
-// km.
+// Derivative of the expected state at the start of an arc over the shared unknowns: accelerations follow
+// their profiles, rotor speeds their scale. Otherwise the information that stands in for unmeasured speeds
+// would determine km.
 MatrixXd FlightSmoother::start_slope(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const Index own = theta_->size();
@@ -193,35 +195,36 @@ MatrixXd FlightSmoother::profile(std::size_t k) const {
   return P;
 }
 
-// Derivative of the defect of chunk k over its state, from column 0 on, and the shared unknowns, from column
-// padded(n) on, as wide as what is eliminated; the next state held. Without what is carried.
+// Derivative of the defect of chunk k, with the next state held: over its state from column 0 on, over the
+// shared unknowns from column padded(n) on. Without the carried shares, see set_shares().
 chunk::RowMatrix FlightSmoother::link_slope(std::size_t k) const {
   const Index n = record_->layout.size, m = theta_->size(), from = padded(record_->layout.size);
   chunk::RowMatrix E = chunk::RowMatrix::Zero(n, from + padded(static_cast<int>(shared()) + 1));
   const chunk::ConstRowMap whole = chunk::E(results_[k], record_->layout.size);
   E.leftCols(n) = whole.leftCols(n);
   E.middleCols(from, m) = whole.rightCols(m);
-  // The floor of unmeasured rotor speeds goes with km (link_weight), so what counts is the defect over km.
+  // The floor of unmeasured rotor speeds is proportional to km (link_weight), so what counts is the defect
+  // over km.
   if (const std::optional<SpeedScale> scale = scale_of_speeds())
     E.col(from + scale->slot).segment(record_->layout.motors, 2 * record_->layout.rotors) -=
         scale->share * defect(k).segment(record_->layout.motors, 2 * record_->layout.rotors);
   return E;
 }
 
-// What such a slope owes to the noise: the share that is carried over of what follows a process. That is
+// Sets the part of such a slope that depends on the noise: the share that is carried over. A process is
 // constant over a chunk and depends on nothing else.
 void FlightSmoother::set_shares(std::size_t k, chunk::RowMatrix& E) const {
   const VectorXd share = carried(k);
   for (const Process& process : processes(k))
     for (int i = process.at; process.at >= 0 && i < process.at + 3; ++i) E(i, i) = share[i];
-  // The process is what is left of the acceleration beyond the profile.
+  // The process is the acceleration less its profile.
   if (!profiles_.empty())
     E.middleCols(padded(record_->layout.size) + theta_->size(), shared() - theta_->size()) =
         profile(k + 1) - share.asDiagonal() * profile(k);
 }
 
-// Inverse variance of the defect: what a process wins anew over a chunk, q h for rotor speeds, and a floor
-// far below what the measurements of one chunk can tell, so that all else continues.
+// Inverse variance of the defect: the new part of a process, q h for rotor speeds, and for all other states a
+// floor far below what the measurements of one chunk can tell, so that they continue.
 VectorXd FlightSmoother::link_weight(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const double h = length(*record_, places_[k]),
@@ -237,7 +240,8 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
   };
   continues(layout.w, kGyro), continues(layout.attitude, kAttitude);
   continues(layout.v, kVelocity), continues(layout.x, kPosition);
-  // Unseen places and velocities lose themselves, by more than all digits in the end: they start anew.
+  // Places and velocities that are not measured drift by more than the digits of a double: they start anew in
+  // each chunk.
   const VectorXd& unseen = unseen_[static_cast<std::size_t>(places_[k].arc)];
   for (const int at : {layout.v, layout.x})
     for (int i = at; at >= 0 && i < at + 3; ++i)
@@ -249,10 +253,10 @@ VectorXd FlightSmoother::link_weight(std::size_t k) const {
       W[process.at + i] = 1.0 / (axis.sigma * axis.sigma * (1 - share * share) + process.least +
                                  new_error(k, process.input_axis(i), share));
     }
-  // Not omega_m as it stands: with its square for a weight, faster motors would make their noise cheap.
+  // Not the present omega_m: with its square as a weight faster motors would make their noise cheap.
   const double rate = record_->motor_rate;
-  // The floor of speeds that nobody measured goes with their scale: else less speed would mean more freedom,
-  // and the cost would fall with km.
+  // The floor of unmeasured speeds is proportional to their scale. Otherwise lower speeds would have more
+  // freedom, and the cost would fall with km.
   const double speeds = theta_->p(trial_u_)[param::km] / theta_->p(VectorXd::Zero(theta_->size()))[param::km];
   for (int n = 0; n < layout.rotors && layout.motors >= 0; ++n) {
     const double f = noise_.q_motor * h + kMotorFloor * floor(kRotorChannel + n, 5.0 * speeds);

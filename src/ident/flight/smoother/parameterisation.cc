@@ -16,10 +16,11 @@ namespace {
 
 using Eigen::MatrixXd;
 
-// Below this share of what is stated, what is positive is held along its logarithm: against a loose prior it
-// would otherwise vanish for the price of a few deviations, and with it what the flight says of all else.
+// Below this share of its prior value a positive constant is held along its logarithm. Against a weak prior
+// it could otherwise vanish for the price of a few standard deviations.
 constexpr double kVanishing = 0.1;
-// Correlation from which on it matters that a product is known and no sum.
+// Correlation above which the prior is taken in logarithms: then it matters that a product is known, not a
+// sum.
 constexpr double kTogether = 0.1;
 
 EffectMask effect_of(int slot) {
@@ -28,7 +29,7 @@ EffectMask effect_of(int slot) {
   return 0;
 }
 
-// Inverse of the correlation of what is known of the constants; of unknowns further than they nothing else.
+// Inverse correlation of the priors of the constants; identity for all other unknowns.
 MatrixXd precision_of(const std::vector<FreeConstant>& constants, int size) {
   std::vector<Eigen::Index> at;
   for (std::size_t i = 0; i < constants.size(); ++i)
@@ -91,7 +92,7 @@ double Theta::slope(const Eigen::VectorXd& u, int i) const {
   return k < 0 ? own : own * constants_[static_cast<std::size_t>(k)].start / physical(u, k);
 }
 
-// The unknown that constant i goes with as a product; -1 if none.
+// The unknown whose product with constant i is estimated; -1 if none.
 int Theta::factor(int i) const {
   const int slot = i < constants_count() ? constants_[static_cast<std::size_t>(i)].times : -1;
   if (slot < 0) return -1;
@@ -192,8 +193,8 @@ std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vect
     c.name = info.name;
     c.index = info.index;
     c.start = p[static_cast<std::size_t>(info.index)];
-    // Jp too, where its sign is not in question: without rotor speeds kT km^2, kQ km^2 and Jp km are known,
-    // and only in logarithms is what they leave open a straight line.
+    // Jp too, unless the file has the published signs: without rotor speeds kT km^2, kQ km^2 and Jp km are
+    // known, which are straight lines in logarithms only.
     const bool inertia = info.index == param::Jxx || info.index == param::Jyy || info.index == param::Jzz ||
                          (info.index == param::Jp && vehicle.signs != Signs::as_published);
     c.positive = (info.kind == ParameterKind::positive || inertia) && c.start > 0;

@@ -13,7 +13,7 @@
 
 namespace ident {
 
-/// One free constant. Positive ones move as value = start exp(u), others as value = start + scale u.
+/// One free constant. A positive one is start exp(u), any other start + scale u.
 struct FreeConstant {
   std::string name;
   int index = 0;  ///< place in the model's parameter vector
@@ -21,13 +21,13 @@ struct FreeConstant {
   double start = 0.0, scale = 1.0;
   std::optional<double> prior_std;  ///< about `prior_value`
   double prior_value = 0.0;
-  /// Model indices of others that are known together with it, and the correlation of the two priors. What is
-  /// positive is normal in its logarithm then: a product that is known makes a straight line there.
+  /// Constants (by model index) whose priors are correlated with this one, and the correlation. The priors of
+  /// positive constants are then normal in their logarithms, where a known product is a straight line.
   std::vector<std::pair<int, double>> known_with;
-  bool adopted = false;  ///< belongs to a cause that a diagnosis took up, not to the model as stated
-  bool watched = false;  ///< held where it is; only what the flight says against that is looked at
-  /// Slot of another free constant: what moves on its own is the product with that (a payload's moment, not
-  /// its place), value = (start + scale u) start_other / other.
+  bool adopted = false;  ///< part of a cause that a diagnosis has adopted, not of the model as stated
+  bool watched = false;  ///< held at its value; only its score is looked at
+  /// Slot of another free constant, whose product with this one is the unknown (the moment of a payload, not
+  /// its place): value = (start + scale u) start_other/other. -1: none.
   int times = -1;
 
   /// Change of the value for a unit step from the start.
@@ -59,8 +59,8 @@ class Theta {
   PriorTerms prior(const Eigen::VectorXd& u) const;
   /// The inertia at u, products and effects included, kg m^2.
   Eigen::Matrix3d inertia(const Eigen::VectorXd& u) const;
-  /// Whether that is positive definite. With the moments in
-  /// logarithms it always is as long as there are no products.
+  /// Whether that inertia is positive definite. Without products of inertia it always is, because the moments
+  /// are estimated as logarithms.
   bool possible(const Eigen::VectorXd& u) const;
 
  private:
@@ -76,20 +76,20 @@ class Theta {
   std::vector<bool> prior_in_logarithms_;  ///< of each constant
 };
 
-/// The constants of a vehicle that a refinement frees: those with a standard deviation or without a value
-/// that the model needs, as far as `signals` can involve them. `also` names further ones.
+/// The constants that a refinement frees: those that the model always needs, unless the file states them as
+/// exact, those with a standard deviation, and those named in `also`.
 std::vector<FreeConstant> free_constants(const Vehicle& vehicle, const std::vector<double>& p,
                                          const std::vector<std::string>& also = {});
 
-/// Distance from its null value beyond which an effect's constant is not physical on this vehicle; infinite
-/// for any other.
+/// Largest physical distance of the constant of an effect from its null value on this vehicle; infinite for
+/// other constants.
 double physical_limit(const FreeConstant& constant);
 
-/// Parts one constant (its model index) from those that it is known together with: what is known of them
-/// stays, whatever becomes of it. For one that is held or freed of what was stated of it.
+/// Removes the prior correlations of one constant (its model index) with all others; their own priors stay.
+/// For a constant that is held, or freed from what was stated of it.
 void know_alone(std::vector<FreeConstant>& constants, int index);
 
-/// Takes out the constants from command to rotor speed, of which logs without commands say nothing.
+/// Removes the constants between command and rotor speed, which logs without commands do not involve.
 void leave_out_motors(std::vector<FreeConstant>& constants);
 
 }  // namespace ident

@@ -1,4 +1,4 @@
-// Quadratic forms of a prior.
+// Quadratic forms of the prior.
 #include "ident/flight/smoother/prior.h"
 
 #include <Eigen/Cholesky>

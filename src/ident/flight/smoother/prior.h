@@ -1,11 +1,11 @@
-// What was known of the shared unknowns before a flight: a normal distribution with its whole covariance.
+// The prior of the shared unknowns: a normal distribution with its whole covariance.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace ident {
 
-/// The prior where the unknowns stand. Its cost is residual' precision residual.
+/// The prior at the present unknowns. Its cost is residual' precision residual.
 struct PriorTerms {
   Eigen::VectorXd residual;   ///< one per unknown, in standard deviations of what was known; 0 without prior
   Eigen::VectorXd slope;      ///< derivative with respect to its own unknown; 0 without prior
@@ -22,15 +22,14 @@ struct PriorTerms {
   Eigen::MatrixXd root() const;
   Eigen::VectorXd whitened() const;
 
-  /// With `factor` times the standard deviation of one of them, which is known by itself then; what is known
-  /// of the others stays.
+  /// With `factor` times the standard deviation of unknown `at`, which is then independent of the others.
   PriorTerms loosened(Eigen::Index at, double factor) const;
-  /// With further unknowns, known to be zero within a unit.
+  /// With further unknowns, each with prior 0 +- 1.
   PriorTerms extended(Eigen::Index size) const;
 };
 
-/// Inverse of a correlation matrix; combinations count as known no better than a hundred thousand times as
-/// well as the names in them, where rounding would make more of it.
+/// Inverse of a correlation matrix. No combination counts as known more than a hundred thousand times as well
+/// as its constants: beyond that it would be rounding.
 Eigen::MatrixXd inverse_correlation(const Eigen::MatrixXd& correlation);
 
 }  // namespace ident

@@ -1,4 +1,4 @@
-// Process noise that makes the last linearisation most likely: gusts, slow errors of what is shown, motors.
+// Maximum likelihood estimate of the process noise at the last linearisation: gusts, slow errors, motors.
 #include <algorithm>
 #include <cmath>
 
@@ -12,27 +12,27 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Gusts are not slower than this, s: what stays longer is a cause to be found, not noise. An estimator's
-// errors are.
+// Longest correlation times, s, of gusts and of the slow errors of an estimator. What lasts longer than a
+// gust is a cause to be found.
 constexpr double kSlowest = 4.0, kSlowestShown = 30.0;
-// How much denser a slow error may be than the log alone shows it: what a model misses looks like more of it.
+// Largest density of a slow error over what the log alone shows: what a model misses looks like more of it.
 constexpr double kMostDense = 3.0;
-// The shared unknowns, which noise moves little and which make elimination twice as dear, are held for so
-// many rounds; many of them, the causes of a diagnosis, make it four times as dear.
+// Rounds in which the shared unknowns are held: the noise moves them little, and they double the cost of
+// elimination. Above kManyShared of them, as in a diagnosis, they quadruple it.
 constexpr int kHeld = 4;
 constexpr Index kManyShared = 40;
 constexpr double kLeastMotor = 1e-9;  // (rad/s)^2/s
-// Of the motors' noise more than this share of its links has to be told: what nothing tells of it would stand
-// in for the noise of rates once Jp is large against Jzz.
+// Share of the links of motors that is added to those that the data determine. Noise below it is none: it
+// would otherwise stand in for the noise of the rates where Jp is large against Jzz.
 constexpr double kNoMotorNoise = 0.03;
-// A variance that links do not tell from none, (m/s^2)^2 or (rad/s^2)^2.
+// A variance that links cannot tell from zero, (m/s^2)^2 or (rad/s^2)^2.
 constexpr double kNothing = 1e-11;
-// Share of the innovations that the data determine below which there might as well be none.
+// Where the data determine less than this share of the innovations there may be no such noise.
 constexpr double kHardlyTold = 0.01;
 constexpr double kStill = 0.01;  // relative change of a standard deviation that ends the rounds
 
-// How much longer than those of expectation maximisation, which are short, the steps of a logarithm are: less
-// once they lead to and fro, for sigma follows the time and the time sigma.
+// Lengthens the steps of a logarithm, which are short in expectation maximisation. The factor is halved once
+// steps alternate, for sigma follows tau and tau sigma.
 struct Pace {
   static constexpr double kFastest = 1.8, kLongest = 1.6;
   double factor = kFastest, last = 0.0;
@@ -44,12 +44,13 @@ struct Pace {
   }
 };
 
-// MacKay's fixed point: what a variance is to be multiplied by, and whether that matters.
+// MacKay's fixed point [MacKay 1992]: the factor on a variance, and whether the variance matters at all.
 struct VarianceStep {
   double ratio;
   bool nothing;
 
-  /// `square`: of the innovations, over their variance; `told` of `count` of them the data determine.
+  /// `square`: squared innovations over their variance. `told`: how many of the `count` innovations the data
+  /// determine.
   VarianceStep(double square, double told, double count) {
     ratio = std::clamp(square / std::max(told, kHardlyTold * count), 0.02, 50.0);
     nothing = ratio < 1 && told < kHardlyTold * count;
@@ -57,14 +58,14 @@ struct VarianceStep {
   double change() const { return nothing ? 0.0 : std::abs(std::sqrt(ratio) - 1); }
 };
 
-// Second moments of a Gauss-Markov process over all links: of its estimate, and of what stays unknown. Where
-// the error of the input is part of a link, the link counts by the share of the process in its variance.
+// Second moments of a Gauss-Markov process over all links, of its estimate and of what stays unknown. Where
+// the error of the input shares a link, the link counts by the share of the process in its variance.
 struct ProcessMoments {
   double now = 0, next = 0, cross = 0, seconds = 0, count = 0, links = 0;
   double square = 0, unknown = 0;  // of innovations, over the variance of their links
 
-  /// A link of h seconds whose variance holds `error` besides the process: estimates, their variances and
-  /// covariance.
+  /// Adds a link of h seconds whose variance holds `error` besides the process: the two estimates, their
+  /// variances and their covariance.
   void add(const ColouredNoise& noise, double error, double x, double y, double P_x, double P_y, double C,
            double h) {
     if (noise.sigma <= 0) return;
@@ -79,8 +80,8 @@ struct ProcessMoments {
     seconds += h, count += weight, links += 1;
   }
 
-  /// The time by expectation maximisation, hastened by `pace`; sigma by MacKay's fixed point: squared
-  /// innovations over the number of them that the data determine. Gives the relative change of sigma.
+  /// Updates tau by expectation maximisation, lengthened by `pace`, and sigma by MacKay's fixed point.
+  /// Returns the relative change of sigma.
   double update(ColouredNoise& noise, Pace& pace, double slowest) const {
     if (links < 8 || noise.sigma <= 0) return 0;
     const double h = seconds / links, variance = noise.sigma * noise.sigma;
@@ -93,21 +94,22 @@ struct ProcessMoments {
   }
 };
 
-// The same for the variance of the motors' noise, which reaches zero where there is no such noise.
+// The same for the noise of the motors, whose variance may be zero.
 struct MotorMoments {
   double square = 0, told = 0, floor = 0, links = 0;
 
-  /// What is `left` of a link of h seconds and weight W, of which the data leave the variance V unknown.
+  /// Adds a link of h seconds with weight W: `left` is its smoothed defect, V the variance that the data
+  /// leave unknown.
   void add(double left, double W, double V, double h, double q_motor) {
     square += W * left * left, told += 1 - W * V, links += 1;
     floor += 1 / (W * h) - q_motor;
   }
 
-  /// Gives the relative change of the standard deviation.
+  /// Returns the relative change of the standard deviation.
   double update(double& q_motor) const {
     if (links == 0) return 0;
     const VarianceStep step(square, told + kNoMotorNoise * links, links);
-    // It is the variance of the links, of which the floor is a part, that is to shrink by that ratio.
+    // The ratio holds for the variance of the links, of which the floor is a part.
     const double of_floor = std::min(step.ratio - 1, 0.0) * floor / links;
     q_motor = std::max(q_motor * step.ratio + of_floor, kLeastMotor);
     return q_motor > kLeastMotor ? step.change() : 0;

@@ -1,5 +1,5 @@
-// What the last linearisation says: moments of residuals, likelihood, slopes along a step, scores by block of
-// time.
+// Statistics of the last linearisation: moments of the residuals, marginal likelihood, slopes along a step,
+// scores by block of time.
 #include <algorithm>
 #include <cmath>
 
@@ -96,7 +96,7 @@ std::vector<ScoreBlock> FlightSmoother::score_blocks(double seconds) const {
     chunk::RowMatrix F = chunk::RowMatrix::Zero(m, columns), across(n, columns), along(n, columns);
     chunk::RowMatrix Et(n, n), slope(n, columns), WS(n, columns);
     for (std::size_t k = begin[b]; k < begin[b + 1]; ++k) {
-      // Rows are about the state, which follows dX, and theta; profiles act through links only.
+      // Rows depend on the state, which follows dX, and on theta. Profiles act through links only.
       const chunk::ConstRowMap A = chunk::A(results_[k]);
       score.noalias() += dX[k].transpose() * chunk::g(results_[k]).head(n);
       score.head(own) += chunk::g(results_[k]).tail(own);

@@ -1,4 +1,4 @@
-// Parallel evaluation of the chain of chunks.
+// Evaluates the chunks in parallel, predicts their states and moves them to their optimum.
 #include "ident/flight/smoother/smoother.h"
 
 #include <algorithm>
@@ -17,20 +17,21 @@ using Eigen::VectorXd;
 
 namespace {
 
-// The delay of rates and attitude is simulated, not linearised, up to the rows that a chunk sees beyond its
-// end.
+// Delay of rates and attitude about which the model is linearised: as far as the rows reach that a chunk sees
+// beyond its end.
 double sensor_delay_of(const std::vector<double>& p, double interval) {
   static const int tau = find_parameter("sensor_delay.tau")->index;
   constexpr double kRows = 50.0;
   return std::clamp(p[static_cast<std::size_t>(tau)], 0.0, kRows * interval);
 }
 
-// What is tried of a state's step, one after the other, where with all of it nothing flies: a nearly instant
-// motor, say, leaves so little of its state at the start of an arc that the first steps there are wild.
+// Shares of a state's step that are tried in turn where the simulation diverges with all of it. A nearly
+// instant motor, say, leaves so little trace of its state at the start of an arc that first steps there are
+// wild.
 constexpr std::array kShares = {0.1, 0.0};
 
-// Rounds without a lower cost after which none will come: residuals that are bent where they are gross
-// promise a fall at every step to and fro.
+// Rounds without a lower cost after which none is expected: residuals at the bend of the robust cost promise
+// a decrease at every step to and fro.
 constexpr int kInVain = 3;
 
 bool flies(const ChunkResult& result) {
@@ -152,7 +153,7 @@ void FlightSmoother::predict(const VectorXd& u) {
   for (std::size_t k = 0; k < places_.size(); ++k) trial_[k] = moved(states_[k], steps_[k]);
 }
 
-// The same with shorter steps of those states from which nothing flies.
+// Shortens the steps of those states from which the simulation diverges.
 void FlightSmoother::shorten_wild_steps(const VectorXd& u, bool leverage) {
   if (steps_.empty()) return;
   for (const double share : kShares) {
@@ -192,13 +193,13 @@ void FlightSmoother::settle(const VectorXd& u, int rounds, double enough) {
 
 void FlightSmoother::settle_ends(const VectorXd& u, int rounds, double enough) {
   settle_until(u, rounds, enough, [](double fall, double before) {
-    // Falls that go on to shrink as the last one did.
+    // Sum of further decreases that shrink as the last one did.
     const double shrinks = fall / before;
     return shrinks < 1 ? fall * shrinks / (1 - shrinks) : fall;
   });
 }
 
-// Until what is `left` of the fall, by that of the last round and of the one before it, is little.
+// Goes on until what is `left` to gain, by the decrease of the last two rounds, is small.
 void FlightSmoother::settle_until(const VectorXd& u, int rounds, double enough,
                                   const std::function<double(double fall, double before)>& left) {
   double least = std::numeric_limits<double>::infinity(), before = 0;

@@ -1,4 +1,5 @@
-// States of the chain of chunks: taken over, turned, moved, their defects at the links and where arcs end.
+// The states of a chain: taken over, moved by a step, their defects at the links, and the states where arcs
+// end.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +13,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSlow = 100.0;  // rad/s: as if the fastest rotor turned so fast, where all stand still
-constexpr double kWild = 5.0;    // of its speed: a step by more is none that helps
+constexpr double kSlow = 100.0;  // rad/s: least speed that counts as the speed of the fastest rotor
+constexpr double kWild = 5.0;    // times that speed: longer steps of a rotor speed are shortened
 
 }  // namespace
 
@@ -42,7 +43,7 @@ void FlightSmoother::start_from(const FlightSmoother& other) {
   set_axes();
 }
 
-// The accelerations of all states along the axes of the noise.
+// Turns the accelerations of all states to the axes of the noise model.
 void FlightSmoother::set_axes() {
   for (FlightState<double>& x : states_) {
     if (x.outside.axes == noise_.axes) continue;
@@ -77,7 +78,7 @@ FlightState<double> FlightSmoother::moved(const FlightState<double>& x, const Ve
     fastest = std::max(fastest, std::abs(x.motors[static_cast<std::size_t>(n)].Omega));
     wild = std::max(wild, std::abs(dx[layout.motors + n]));
   }
-  // Another of a first iteration: thrust is no line over more than that.
+  // Also a wild step of a first iteration: thrust is not linear over more than that.
   const double most = kWild * fastest, share = wild > most ? most / wild : 1.0;
   for (int n = 0; n < layout.rotors; ++n) {
     y.motors[static_cast<std::size_t>(n)].Omega += share * dx[layout.motors + n];
@@ -86,7 +87,7 @@ FlightState<double> FlightSmoother::moved(const FlightState<double>& x, const Ve
   return y;
 }
 
-// Local coordinates of the end of chunk k relative to the start of the next.
+// The end of chunk k in local coordinates relative to the start of the next chunk.
 VectorXd FlightSmoother::defect(std::size_t k) const {
   const StateLayout& layout = record_->layout;
   const FlightState<double>&a = results_[k].x_end, &b = trial_[k + 1];

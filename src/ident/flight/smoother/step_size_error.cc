@@ -1,4 +1,4 @@
-// What it changes how flight is simulated.
+// Error of the integration steps: how much fine steps would change residuals and links.
 #include <array>
 #include <cmath>
 
@@ -8,8 +8,8 @@ namespace ident {
 
 using Eigen::VectorXd;
 
-// Differences of rates and velocities as accelerations from outside would make them, of motors as their own
-// noise would.
+// Cost of the process noise that would make the same defects: those of rates and velocities as accelerations
+// from outside, those of rotor speeds as noise of the motors.
 double FlightSmoother::noise_that_makes(const std::vector<VectorXd>& defects) const {
   const StateLayout& layout = record_->layout;
   VectorXd before;  // accelerations of the chunk before
