@@ -5,6 +5,7 @@
 
 #include "campaign_priors.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 
 namespace ident::app {
 

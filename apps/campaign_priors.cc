@@ -11,6 +11,8 @@
 
 #include "ident/io/file/sha256.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "ident/report/campaign_report.h"
 
 namespace ident::app {

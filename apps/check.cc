@@ -3,6 +3,7 @@
 #include "ident/bench/check/consistency.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 
 namespace ident::app {
 namespace {

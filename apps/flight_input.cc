@@ -13,8 +13,11 @@
 #include "campaign_priors.h"
 #include "ident/core/parallel.h"
 #include "ident/io/file/sha256.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident::app {
 namespace {

@@ -3,7 +3,9 @@
 #include "ident/flight/checks/rotor_speed_jitter.h"
 #include "ident/flight/refine.h"
 #include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/flight/verify.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "ident/views/simulation_residuals.h"
 
 namespace ident::app {

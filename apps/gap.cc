@@ -3,6 +3,7 @@
 #include "flight_input.h"
 #include "ident/gap/diagnose.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident::app {
 namespace {

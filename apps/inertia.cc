@@ -1,6 +1,7 @@
 // `ident inertia`: moments of inertia from a trifilar pendulum, and of a propeller from its measures.
 #include "bench.h"
 #include "ident/bench/inertia/trifilar_inertia.h"
+#include "ident/io/csv/table_schemas.h"
 
 namespace ident::app {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "ident/core/version.h"
 #include "ident/report/report.h"
+#include "ident/report/report_files.h"
 #include "shell.h"
 
 namespace ident::app {

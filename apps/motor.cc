@@ -1,6 +1,7 @@
 // `ident motor`: motor constants from recordings of command steps.
 #include "bench.h"
 #include "ident/bench/motor/motor_step.h"
+#include "ident/io/csv/table_schemas.h"
 
 namespace ident::app {
 namespace {

@@ -7,7 +7,9 @@
 #include "ident/bench/slant/slant.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/report/campaign_report.h"
+#include "ident/report/report_files.h"
 #include "shell.h"
 
 namespace ident::app {

@@ -9,6 +9,8 @@
 
 #include "ident/io/file/sha256.h"
 #include "ident/report/campaign_report.h"
+#include "ident/report/report_files.h"
+#include "ident/report/text.h"
 #include "shell.h"
 
 namespace ident::app {

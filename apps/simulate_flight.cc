@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/sim/scenario.h"
 #include "ident/sim/simulate.h"
 #include "simulate.h"

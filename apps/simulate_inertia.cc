@@ -1,5 +1,8 @@
 // `ident simulate inertia`: swings of a trifilar pendulum as a table.
+#include "ident/sim/simulate_inertia.h"
+
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "simulate.h"
 
 namespace ident::app {

@@ -1,5 +1,8 @@
 // `ident simulate motor`: a recording of command steps as a table.
+#include "ident/sim/simulate_motor.h"
+
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "simulate.h"
 
 namespace ident::app {

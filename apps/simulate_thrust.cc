@@ -1,5 +1,8 @@
 // `ident simulate thrust`: a thrust sweep as a table.
+#include "ident/sim/simulate_thrust.h"
+
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "simulate.h"
 
 namespace ident::app {

@@ -4,6 +4,8 @@
 #include "command.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident::app {
 namespace {

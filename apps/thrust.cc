@@ -1,6 +1,7 @@
 // `ident thrust`: thrust and torque constant of a propeller from bench sweeps.
 #include "bench.h"
 #include "ident/bench/thrust/thrust_sweep.h"
+#include "ident/io/csv/table_schemas.h"
 
 namespace ident::app {
 namespace {

@@ -15,10 +15,12 @@
 
 #include "ident/core/simd/instruction_set.h"
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fit_steps.h"
 #include "ident/flight/make_record.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "plain_fit.h"
 
 namespace ident {

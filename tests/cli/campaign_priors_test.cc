@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "support/run_program.h"
 
 namespace ident {

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "support/run_program.h"
 
 namespace ident {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ident/result/result.h"
 #include "support/run_program.h"
 
 namespace ident {

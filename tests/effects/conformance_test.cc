@@ -6,6 +6,8 @@
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "ident/model/flight.h"
 #include "support/run_program.h"
 

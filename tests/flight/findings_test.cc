@@ -12,6 +12,7 @@
 #include "ident/flight/make_record.h"
 #include "ident/flight/record/flight_record.h"
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "support/known_quad.h"
 
 namespace ident {

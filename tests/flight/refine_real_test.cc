@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "support/real_data.h"
 

@@ -6,7 +6,10 @@
 
 #include "ident/core/error.h"
 #include "ident/flight/make_record.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/flight/verify.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/sim/simulate.h"
 
 namespace ident {

@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "ident/sim/simulate.h"
 
 namespace ident {

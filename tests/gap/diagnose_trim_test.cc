@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "ident/gap/diagnose.h"
 #include "support/path_only.h"
 #include "support/real_data.h"

@@ -7,6 +7,7 @@
 #include "ident/flight/make_record.h"
 #include "ident/gap/diagnose.h"
 #include "ident/gap/statistics/level_thrust.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "support/real_data.h"
 

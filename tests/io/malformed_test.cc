@@ -17,8 +17,11 @@
 #include "ident/core/error.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/csv/read_table.h"
+#include "ident/io/csv/table_schemas.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 
 namespace ident {
 namespace {

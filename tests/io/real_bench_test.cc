@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ident/io/csv/read_table.h"
+#include "ident/io/csv/table_schemas.h"
 #include "support/real_data.h"
 
 namespace ident {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "support/real_data.h"
 

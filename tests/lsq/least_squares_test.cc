@@ -8,7 +8,9 @@
 
 #include "ident/core/statistics.h"
 #include "ident/lsq/least_squares_autodiff.h"
+#include "ident/lsq/least_squares_fit.h"
 #include "ident/lsq/least_squares_lag_products.h"
+#include "ident/lsq/least_squares_result.h"
 #include "support/bench_campaign.h"
 
 namespace ident {

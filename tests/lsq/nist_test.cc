@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ident/lsq/least_squares.h"
+#include "ident/lsq/least_squares_fit.h"
 #include "support/nist_problem.h"
 
 namespace ident {

@@ -7,6 +7,7 @@
 #include "ident/core/random.h"
 #include "ident/effects/catalogue.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/model/body.h"
 #include "ident/model/dc_motor.h"
 #include "ident/model/euler_lagrange.h"

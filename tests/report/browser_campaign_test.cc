@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "ident/result/result.h"
 #include "support/report_in_browser.h"
 #include "support/run_program.h"
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <fstream>
 
+#include "ident/result/result.h"
 #include "support/report_in_browser.h"
 #include "support/run_program.h"
 

@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "ident/report/assets.h"
+#include "ident/report/html.h"
 #include "ident/report/report.h"
 #include "support/report_in_browser.h"
 #include "support/sample_results.h"

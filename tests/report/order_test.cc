@@ -1,6 +1,8 @@
 // The order in which a parameter report is read.
 #include <gtest/gtest.h>
 
+#include "ident/report/html.h"
+#include "ident/report/markdown.h"
 #include "ident/report/report.h"
 
 namespace ident {

@@ -4,7 +4,11 @@
 #include <sstream>
 
 #include "ident/core/error.h"
+#include "ident/report/html.h"
+#include "ident/report/markdown.h"
 #include "ident/report/report.h"
+#include "ident/report/report_files.h"
+#include "ident/report/text.h"
 
 namespace ident {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "ident/report/html.h"
 #include "ident/report/report.h"
 
 namespace ident {

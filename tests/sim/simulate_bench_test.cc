@@ -12,6 +12,9 @@
 #include "ident/core/error.h"
 #include "ident/io/csv/write_csv.h"
 #include "ident/model/dc_motor.h"
+#include "ident/sim/simulate_inertia.h"
+#include "ident/sim/simulate_motor.h"
+#include "ident/sim/simulate_thrust.h"
 #include "support/random_vehicle.h"
 
 namespace ident {

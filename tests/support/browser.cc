@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "ident/result/result.h"
+
 namespace ident::testing {
 namespace {
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ident/result/result.h"
+
 namespace ident::testing {
 
 class Browser {

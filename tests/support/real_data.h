@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/model/vehicle.h"
 

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "ident/io/vehicle/vehicle_write.h"
+
 namespace ident {
 namespace {
 

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "ident/io/vehicle/vehicle_read.h"
+
 namespace rival {
 
 namespace {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "ident/io/vehicle/vehicle_read.h"
 #include "rival_generic.h"
 
 namespace {

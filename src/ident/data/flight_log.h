@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/result/result.h"
+#include "ident/result/finding.h"
 
 namespace ident {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ident/result/result.h"
+#include "ident/result/finding.h"
 
 namespace ident {
 

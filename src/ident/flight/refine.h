@@ -24,17 +24,8 @@ struct RefineOptions {
   std::function<void(double)> progress;
 };
 
-/// `ident flightlog --refine`. Throws DataError when the logs hold nothing to estimate from. Rows in which a
-/// motor is off are not used where the rest contradicts them (`not_driven`).
-Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
-                     const RefineOptions& options = {});
-
 /// The same, of all rows.
 Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
                         const RefineOptions& options);
-
-/// `ident flightlog`: the vehicle as stated against the logs over short windows, as [Phang] verifies his
-/// model: RMS, fit in percent and Theil's inequality coefficient per channel.
-Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon = 1.0);
 
 }  // namespace ident

@@ -9,6 +9,7 @@
 #include "ident/flight/checks/unidentifiable.h"
 #include "ident/flight/fit/fitted_parameters.h"
 #include "ident/flight/trim/trim.h"
+#include "ident/flight/trim/trim_fit.h"
 
 namespace ident {
 

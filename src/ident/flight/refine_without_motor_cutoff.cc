@@ -14,7 +14,7 @@
 #include "ident/flight/checks/log_self_test.h"
 #include "ident/flight/record/arcs.h"
 #include "ident/flight/record/flight_record.h"
-#include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 
 namespace ident {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ident/data/flight_log.h"
+#include "ident/flight/refine.h"
 #include "ident/model/vehicle.h"
 
 namespace ident {
@@ -15,5 +16,10 @@ namespace ident {
 /// any flight would be left of one.
 std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
                                                        std::span<const FlightLog> logs);
+
+/// `ident flightlog --refine`. Throws DataError when the logs hold nothing to estimate from. Rows in which a
+/// motor is off are not used where the rest contradicts them (`not_driven`).
+Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                     const RefineOptions& options = {});
 
 }  // namespace ident

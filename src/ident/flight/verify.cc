@@ -1,16 +1,18 @@
 // Verification as in [Phang] section 5: short open-loop simulations against the log, channel by channel.
+#include "ident/flight/verify.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/format_number.h"
-#include "ident/core/json_number.h"
 #include "ident/flight/checks/log_self_test.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/record/channel_units.h"
-#include "ident/flight/refine.h"
 #include "ident/flight/refine_trim.h"
+#include "ident/result/json_number.h"
 #include "ident/views/data_health.h"
 
 namespace ident {

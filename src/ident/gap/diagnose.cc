@@ -20,6 +20,7 @@
 #include "ident/flight/checks/logs_consistent.h"
 #include "ident/flight/checks/rotor_speed_jitter.h"
 #include "ident/flight/conditioning/battery_voltage.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/hover_priors.h"
 #include "ident/flight/fit/input_sensitivity.h"
 #include "ident/flight/fit/physical_inertia.h"
@@ -40,7 +41,9 @@
 #include "ident/gap/verdict/trust.h"
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
+#include "ident/gap/views/gap_where.h"
 #include "ident/gap/views/search_details.h"
+#include "ident/gap/views/signature_plot.h"
 #include "ident/views/data_health.h"
 
 namespace ident {

@@ -13,10 +13,12 @@
 #include "ident/core/statistics.h"
 #include "ident/effects/catalogue.h"
 #include "ident/flight/refine_trim.h"
+#include "ident/flight/trim/trim_fit.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/search/further.h"
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
+#include "ident/gap/views/gap_where.h"
 
 namespace ident {
 namespace {

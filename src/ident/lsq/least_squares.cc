@@ -1,11 +1,11 @@
 // The only place that talks to Ceres: dense QR, tolerances at rounding level, several initial trust regions.
+#include "ident/lsq/least_squares.h"
+
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
 #include <cmath>
 #include <limits>
-
-#include "ident/lsq/least_squares_minimise.h"
 
 namespace ident {
 namespace {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/lsq/least_squares_minimise.h"
 #include "ident/result/result.h"
 
 namespace ident {
@@ -121,22 +122,8 @@ struct LeastSquaresFit {
   std::vector<NoiseDraw> noise_draws;
 };
 
-LeastSquaresFit solve_least_squares(const LeastSquaresProblem& problem,
-                                    const LeastSquaresOptions& options = {});
-
-/// An unknown as parameter of a result: interval by its t quantile (in the logarithm for positive ones),
-/// naive standard deviation, and `identifiable` (standard deviation below 10 % of the value).
-Parameter fitted_parameter(const LeastSquaresFit& fit, const std::string& name, std::string unit,
-                           std::string source);
-
-/// The same for a function of the unknowns with that value and gradient.
-Parameter derived_parameter(const LeastSquaresFit& fit, std::string name, double value,
-                            const Eigen::VectorXd& gradient, std::string unit, std::string source);
-
-/// Correlation of some unknowns, within what the data determine of them.
-Correlation fitted_correlation(const LeastSquaresFit& fit, std::vector<std::string> names);
-
-/// r = A x - y for problems that are linear.
-ResidualFunction linear_residuals(Eigen::MatrixXd A, Eigen::VectorXd y);
+Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
+                 const RowTransform& transform, Effort effort);
+SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
 
 }  // namespace ident

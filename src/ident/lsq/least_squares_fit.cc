@@ -1,5 +1,7 @@
 // From residuals to an estimate: robust start, outliers and noise in turn with the solution, then
 // uncertainty.
+#include "ident/lsq/least_squares_fit.h"
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>

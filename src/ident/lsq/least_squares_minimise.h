@@ -20,9 +20,6 @@ struct Minimum {
   double cost;        ///< half the sum of squares after the transform; infinite when the start is impossible
 };
 
-Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
-                 const RowTransform& transform, Effort effort);
-
 /// Residuals that keep a state of their own between steps (the flight smoother): evaluated once per step,
 /// with J asked for again only where the step was accepted.
 struct SteppedProblem {
@@ -42,7 +39,5 @@ struct SteppedMinimum {
   bool ok = false;
   bool rejected = false;  ///< ended at steps that failed
 };
-
-SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
 
 }  // namespace ident

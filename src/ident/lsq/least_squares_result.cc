@@ -1,4 +1,6 @@
 // What a caller asks a finished fit: intervals of unknowns and of functions of them.
+#include "ident/lsq/least_squares_result.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 
 #include "ident/core/statistics.h"
-#include "ident/lsq/least_squares.h"
 
 namespace ident {
 namespace {

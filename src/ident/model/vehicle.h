@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ident/result/correlation.h"
-#include "ident/result/result.h"
+#include "ident/result/finding.h"
 
 namespace ident {
 

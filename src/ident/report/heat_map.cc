@@ -1,12 +1,13 @@
 // Heat maps: one hue whose strength is the value, a second one for negative values, so that zero is the
 // paper.
+#include "ident/report/heat_map.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "ident/core/format_number.h"
 #include "ident/report/plot_frame.h"
-#include "ident/report/plot_svg.h"
 
 namespace ident {
 namespace {

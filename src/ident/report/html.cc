@@ -1,4 +1,6 @@
 // The HTML page of a result: headings, tables and pictures in the order in which they are read.
+#include "ident/report/html.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,10 +8,10 @@
 #include "ident/report/assets.h"
 #include "ident/report/blocks.h"
 #include "ident/report/escape.h"
+#include "ident/report/heat_map.h"
 #include "ident/report/html_table.h"
 #include "ident/report/plot_data.h"
 #include "ident/report/plot_svg.h"
-#include "ident/report/report.h"
 #include "ident/report/theme.h"
 
 namespace ident {

@@ -4,8 +4,8 @@
 #include "ident/core/format_number.h"
 #include "ident/report/blocks.h"
 #include "ident/report/escape.h"
+#include "ident/report/markdown.h"
 #include "ident/report/plot_svg.h"
-#include "ident/report/report.h"
 
 namespace ident {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/report/report.h"
 #include "ident/result/result.h"
 
 namespace ident {
@@ -36,5 +37,10 @@ class MarkdownWriter {
   std::vector<Picture> pictures_;
   std::set<std::string> names_;
 };
+
+/// The same content for repositories. Pictures are named, not shown; `report_files` shows them.
+std::string render_markdown(const Result& result);
+
+std::string render_markdown(const std::string& title, std::span<const Result> results);
 
 }  // namespace ident

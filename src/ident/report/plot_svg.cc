@@ -10,6 +10,7 @@
 #include "ident/core/format_number.h"
 #include "ident/report/channel_colour.h"
 #include "ident/report/decimate.h"
+#include "ident/report/heat_map.h"
 #include "ident/report/plot_frame.h"
 #include "ident/report/theme.h"
 

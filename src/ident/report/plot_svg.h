@@ -16,10 +16,4 @@ std::string plot_svg(const Plot& plot, const std::string& id, PlotWidth width = 
 /// The picture as a file of its own, which carries its colours for light and dark.
 std::string standalone_svg(const Plot& plot);
 
-/// Heat map of `plot.cells`; used by `plot_svg`.
-std::string heat_map_svg(const Plot& plot, const std::string& style);
-
-/// A correlation matrix as a heat map.
-Plot correlation_plot(const Result& result);
-
 }  // namespace ident

@@ -1,10 +1,13 @@
 // The files of a report, chosen by the ending of its name.
+#include "ident/report/report_files.h"
+
 #include <filesystem>
 
 #include "ident/core/error.h"
 #include "ident/core/version.h"
+#include "ident/report/html.h"
 #include "ident/report/markdown.h"
-#include "ident/report/report.h"
+#include "ident/report/report_files.h"
 #include "ident/report/stored_result.h"
 
 namespace ident {

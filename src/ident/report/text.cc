@@ -1,9 +1,10 @@
 // A result for the terminal: verdict, parameters, what was not identified, findings.
+#include "ident/report/text.h"
+
 #include <fmt/format.h>
 
 #include "ident/core/format_number.h"
 #include "ident/report/blocks.h"
-#include "ident/report/report.h"
 #include "ident/report/text_table.h"
 
 namespace ident {

@@ -36,10 +36,6 @@ struct ThrustSweep {
   std::uint64_t seed = 1;
 };
 
-/// omega, thrust, torque (where the vehicle has kQ), delta or u, voltage and current. Throws UsageError where
-/// the vehicle lacks what the test needs.
-NumberTable simulate_thrust(const Vehicle& vehicle, const ThrustSweep& options = {});
-
 /// A recording of commands that step from level to level and hold.
 struct MotorSteps {
   std::size_t rotor = 0;
@@ -53,9 +49,6 @@ struct MotorSteps {
   std::uint64_t seed = 1;
 };
 
-/// t, delta or u, omega; a row's command holds from its time on. Throws UsageError as above.
-NumberTable simulate_motor(const Vehicle& vehicle, const MotorSteps& options = {});
-
 /// A trifilar pendulum: the empty platform, then the vehicle with each axis upright.
 struct PendulumSwings {
   int repeats = 10;            ///< rows of each axis
@@ -68,9 +61,5 @@ struct PendulumSwings {
   double outliers = 0.0;       ///< share of rows that are 8 to 40 standard deviations off
   std::uint64_t seed = 1;
 };
-
-/// axis, period, mass, radius, length, offset and amplitude where they are not 0. The platform is a disc of
-/// the wires' radius. Throws UsageError where the vehicle states no mass or inertia.
-NumberTable simulate_inertia(const Vehicle& vehicle, const PendulumSwings& options = {});
 
 }  // namespace ident

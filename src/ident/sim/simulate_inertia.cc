@@ -5,13 +5,14 @@
 //
 // about the common centre of gravity, with the exact period of model/trifilar_period.h; the inverse of what
 // the file format states.
+#include "ident/sim/simulate_inertia.h"
+
 #include <algorithm>
 #include <array>
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/model/trifilar_period.h"
-#include "ident/sim/simulate_bench.h"
 
 namespace ident {
 namespace {

@@ -1,10 +1,11 @@
 // Rows of a step recording: the motor model between commands that hold.
+#include "ident/sim/simulate_motor.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
-#include "ident/sim/simulate_bench.h"
 #include "ident/sim/stand.h"
 
 namespace ident {

@@ -1,8 +1,9 @@
 // Rows of a thrust sweep: rest, then set-points from the lowest command to the highest.
+#include "ident/sim/simulate_thrust.h"
+
 #include "ident/core/error.h"
 #include "ident/core/random.h"
 #include "ident/model/dc_motor.h"
-#include "ident/sim/simulate_bench.h"
 #include "ident/sim/stand.h"
 
 namespace ident {

@@ -9,6 +9,7 @@
 #include "ident/core/format_number.h"
 #include "ident/flight/fit/prediction_windows.h"
 #include "ident/flight/record/channel_units.h"
+#include "ident/flight/record/excerpts.h"
 
 namespace ident {
 namespace {

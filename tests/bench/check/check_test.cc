@@ -7,6 +7,7 @@
 
 #include "ident/bench/check/consistency.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "support/run_program.h"
 
 namespace ident {

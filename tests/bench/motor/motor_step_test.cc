@@ -9,6 +9,7 @@
 #include "ident/bench/motor/motor_step_model.h"
 #include "ident/core/error.h"
 #include "ident/sim/simulate_bench.h"
+#include "ident/sim/simulate_motor.h"
 #include "support/bench_campaign.h"
 #include "support/random_vehicle.h"
 

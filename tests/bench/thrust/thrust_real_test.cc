@@ -7,6 +7,7 @@
 #include "ident/bench/thrust/thrust_sweep.h"
 #include "ident/core/error.h"
 #include "ident/io/csv/read_table.h"
+#include "ident/io/csv/table_schemas.h"
 #include "support/real_data.h"
 
 namespace ident {

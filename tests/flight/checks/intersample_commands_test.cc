@@ -7,6 +7,7 @@
 #include "ident/flight/make_record.h"
 #include "ident/flight/record/command_history.h"
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "support/known_quad.h"
 #include "support/thinned.h"
 

@@ -7,6 +7,7 @@
 #include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "ident/sim/simulate.h"
 #include "support/ring_of_rotors.h"
 

@@ -5,6 +5,7 @@
 
 #include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "support/jumping_speeds.h"
 
 namespace ident {

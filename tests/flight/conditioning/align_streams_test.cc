@@ -5,6 +5,7 @@
 
 #include "ident/core/random.h"
 #include "ident/flight/prepare.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/sim/simulate.h"
 #include "support/late_streams.h"

@@ -12,6 +12,7 @@
 #include "ident/flight/fit/fit.h"
 #include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "ident/flight/smoother/input_error.h"
 #include "ident/sim/simulate.h"
 #include "support/known_quad.h"

@@ -5,8 +5,10 @@
 
 #include "ident/flight/fit/held_out_validation.h"
 #include "ident/flight/make_record.h"
+#include "ident/flight/record/excerpts.h"
 #include "ident/flight/refine.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/sim/simulate.h"
 #include "ident/views/flight_residuals.h"
 #include "ident/views/prediction_traces.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "support/known_quad.h"
 
 namespace ident {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/verify.h"
 #include "ident/gap/diagnose.h"
 #include "support/known_quad.h"
 

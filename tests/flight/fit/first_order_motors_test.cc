@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "support/known_quad.h"
 
 namespace ident {

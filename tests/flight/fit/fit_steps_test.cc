@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "ident/flight/fit/fit_noise.h"
 #include "support/open_loop_flight.h"
 
 namespace ident {

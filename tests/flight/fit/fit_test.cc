@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "ident/core/random.h"
+#include "ident/flight/fit/fit_covariance.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/make_record.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/sim/simulate.h"
 #include "support/open_loop_flight.h"
 

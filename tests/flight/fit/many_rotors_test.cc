@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
 #include "ident/sim/simulate.h"
 #include "support/ring_of_rotors.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fit_steps.h"
 #include "ident/flight/make_record.h"
 #include "support/known_quad.h"

@@ -6,6 +6,7 @@
 
 #include "ident/effects/all_parameters.h"
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/make_record.h"
 #include "ident/sim/simulate.h"
 

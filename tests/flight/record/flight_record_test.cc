@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
+#include "ident/flight/record/excerpts.h"
 #include "ident/sim/simulate.h"
 #include "support/random_vehicle.h"
 

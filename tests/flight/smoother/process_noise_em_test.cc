@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/make_record.h"
 #include "support/published_hover.h"
 

@@ -7,7 +7,9 @@
 #include <tuple>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/make_record.h"
+#include "ident/flight/record/excerpts.h"
 #include "support/open_loop_flight.h"
 #include "support/published_hover.h"
 

@@ -8,6 +8,8 @@
 #include "ident/core/error.h"
 #include "ident/flight/make_record.h"
 #include "ident/flight/refine.h"
+#include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/flight/verify.h"
 #include "ident/io/log/read_flight_log.h"
 #include "support/path_only.h"
 #include "support/real_data.h"

@@ -6,6 +6,7 @@
 
 #include "ident/gap/diagnose.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/sim/simulate.h"
 
 namespace ident {

@@ -7,6 +7,7 @@
 
 #include "ident/flight/make_record.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 #include "ident/sim/simulate.h"
 
 namespace ident {

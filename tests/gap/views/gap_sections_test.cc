@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "ident/gap/views/gap_where.h"
+
 namespace ident {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "support/run_program.h"
 
 namespace ident {

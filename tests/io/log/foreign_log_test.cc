@@ -9,6 +9,7 @@
 
 #include "ident/core/error.h"
 #include "ident/io/csv/units.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "support/published_hover.h"
 

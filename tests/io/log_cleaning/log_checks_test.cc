@@ -14,6 +14,8 @@
 #include "ident/core/random.h"
 #include "ident/flight/make_record.h"
 #include "ident/flight/record/flight_record.h"
+#include "ident/io/log_cleaning/log_checks_motion.h"
+#include "ident/io/log_cleaning/log_checks_rotors.h"
 #include "support/published_hover.h"
 
 namespace ident {

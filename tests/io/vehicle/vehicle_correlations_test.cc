@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "support/run_program.h"
 
 namespace ident {

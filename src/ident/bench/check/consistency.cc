@@ -3,6 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "ident/bench/check/consistency_hover.h"
+#include "ident/bench/check/consistency_inertia.h"
+#include "ident/bench/check/consistency_motor.h"
+#include "ident/bench/check/consistency_rotor.h"
+#include "ident/bench/check/consistency_slant.h"
+#include "ident/bench/check/consistency_values.h"
+
 namespace ident {
 namespace {
 

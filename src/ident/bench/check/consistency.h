@@ -37,12 +37,6 @@ struct Consistency {
 };
 
 // The checks, each on its own subject.
-void check_values(const Vehicle& vehicle, Consistency& found);   ///< sign, range, standard deviations
-void check_inertia(const Vehicle& vehicle, Consistency& found);  ///< definite, triangle inequality, size
-void check_hover(const Vehicle& vehicle, Consistency& found);    ///< thrust to weight, hover command, trim
-void check_rotor(const Vehicle& vehicle, Consistency& found);  ///< kQ/kT, figure of merit, tip speed, overlap
-void check_slant(const Vehicle& vehicle, Consistency& found);  ///< mounted against decoupling angle
-void check_motor(const Vehicle& vehicle, Consistency& found);  ///< DC motor constants, dynamics
 
 /// All of them. `extra` has `violations`, `thrust_to_weight`, `hover_command`, `hover_rotor_speed`; null
 /// where the file does not say enough.

@@ -3,12 +3,13 @@
 //   thrust to weight = sum_n T_n(delta = 1) (-a_n,z)/(m g) ,  T_n = kT (Omega_0 + km)^2 (1) trim:  T of least
 //   norm with  sum_n wrench_n T_n = (0, -m g) in (Mx, My, Mz; Fz)                          (2) hover speed
 //   sqrt(T_n/kT), hover command (Omega - Omega_0)/km of the rotor that works hardest             (3)
+#include "ident/bench/check/consistency_hover.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "ident/bench/check/consistency.h"
 #include "ident/bench/slant/slant_allocation.h"
 #include "ident/core/format_number.h"
 

@@ -3,13 +3,14 @@
 //   J = integral (r^2 I - r r^T) dm  <=>  S = tr(J)/2 I - J = integral r r^T dm is positive semi-definite (1)
 //
 // In principal axes (1) is the triangle inequality J1 + J2 >= J3: no moment exceeds the sum of the others.
+#include "ident/bench/check/consistency_inertia.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
-#include "ident/bench/check/consistency.h"
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
 #include "ident/model/arm_length.h"

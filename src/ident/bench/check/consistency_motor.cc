@@ -2,11 +2,12 @@
 //
 // In SI units the torque constant ki and the back-EMF constant kv are the same number but for losses and the
 // shape of the windings' field: P_air gap = ki I Omega = kv Omega I.
+#include "ident/bench/check/consistency_motor.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "ident/bench/check/consistency.h"
 #include "ident/core/format_number.h"
 
 namespace ident {

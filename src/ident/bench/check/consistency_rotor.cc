@@ -1,12 +1,13 @@
 // Do thrust and torque constant belong to a propeller of that size?
 //
 //   figure of merit = T^1.5/sqrt(2 rho A)/(Q Omega) = kT^1.5/(kQ sqrt(2 rho A)) < 1   momentum theory (1)
+#include "ident/bench/check/consistency_rotor.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "ident/bench/check/consistency.h"
 #include "ident/bench/thrust/thrust_sweep_rotor.h"
 #include "ident/core/format_number.h"
 

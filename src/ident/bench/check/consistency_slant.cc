@@ -1,11 +1,12 @@
 // Does the slant of a quadrotor with four equal propellers balance their torque?
+#include "ident/bench/check/consistency_slant.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "ident/bench/check/consistency.h"
 #include "ident/bench/slant/slant_allocation.h"
 #include "ident/bench/slant/slant_optimum.h"
 #include "ident/core/format_number.h"

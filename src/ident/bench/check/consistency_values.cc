@@ -1,10 +1,11 @@
 // Sign, range and standard deviation of every number in a vehicle file.
+#include "ident/bench/check/consistency_values.h"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "ident/bench/check/consistency.h"
 #include "ident/core/format_number.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"

@@ -11,6 +11,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_result.h"
 #include "ident/plots/residual_plots.h"
 
 namespace ident {

@@ -9,6 +9,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_fit.h"
 
 namespace ident {
 namespace {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 
 namespace ident {
 namespace {

@@ -12,6 +12,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

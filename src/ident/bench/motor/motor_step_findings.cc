@@ -8,6 +8,7 @@
 
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

@@ -6,6 +6,9 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "ident/lsq/least_squares_fit.h"
+#include "ident/lsq/least_squares_result.h"
+
 namespace ident {
 namespace {
 

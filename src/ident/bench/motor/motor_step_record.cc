@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "ident/lsq/least_squares_result.h"
+
 namespace ident {
 namespace {
 

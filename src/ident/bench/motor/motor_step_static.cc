@@ -6,6 +6,8 @@
 #include <set>
 
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_fit.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "ident/bench/slant/slant_allocation.h"
+#include "ident/core/math.h"
 
 namespace ident {
 namespace {

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "ident/lsq/least_squares_fit.h"
+#include "ident/lsq/least_squares_result.h"
+
 namespace ident {
 namespace {
 

@@ -10,9 +10,11 @@
 #include "ident/bench/thrust/thrust_sweep_parameters.h"
 #include "ident/bench/thrust/thrust_sweep_plausible.h"
 #include "ident/bench/thrust/thrust_sweep_sections.h"
+#include "ident/bench/thrust/thrust_sweep_warnings.h"
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

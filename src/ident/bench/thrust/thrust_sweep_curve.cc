@@ -7,6 +7,8 @@
 
 #include "ident/core/math.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_fit.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

@@ -26,7 +26,4 @@ struct SweepFile {
 SweepFile analyse_sweep(const NumberTable& table, const ThrustOptions& options,
                         std::vector<Warning>& warnings);
 
-/// What a user should know about the file, each by its code.
-void add_sweep_warnings(const SweepFile& file, std::vector<Warning>& warnings);
-
 }  // namespace ident

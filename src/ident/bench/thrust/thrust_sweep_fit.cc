@@ -8,6 +8,7 @@
 #include "ident/bench/thrust/thrust_sweep_model.h"
 #include "ident/core/math.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_fit.h"
 
 namespace ident {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {

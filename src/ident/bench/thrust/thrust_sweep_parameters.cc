@@ -10,6 +10,7 @@
 #include "ident/bench/thrust/thrust_sweep_rotor.h"
 #include "ident/core/format_number.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ident/bench/thrust/thrust_sweep_rows.h"
+#include "ident/core/math.h"
 
 namespace ident {
 

@@ -11,6 +11,7 @@
 
 #include "ident/bench/thrust/thrust_sweep_speed.h"
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {

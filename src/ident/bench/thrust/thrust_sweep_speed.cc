@@ -11,6 +11,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {

@@ -1,11 +1,13 @@
 // Warnings about one sweep.
+#include "ident/bench/thrust/thrust_sweep_warnings.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "ident/bench/thrust/thrust_sweep_file.h"
 #include "ident/core/format_number.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

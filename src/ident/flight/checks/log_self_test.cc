@@ -12,6 +12,8 @@
 #include "ident/core/parallel.h"
 #include "ident/core/statistics.h"
 #include "ident/flight/checks/command_rate.h"
+#include "ident/flight/checks/rotor_order.h"
+#include "ident/flight/checks/sensor_frames.h"
 
 namespace ident {
 namespace {

@@ -30,7 +30,6 @@ struct SensorFrames {
   std::vector<Warning> findings;
   bool rates_confirmed = false;  ///< the attitude turns as the rates say, about all three axes
 };
-SensorFrames test_sensor_frames(const FlightRecord& record, double gravity);
 
 /// How well the rotors as mounted explain the rates: correlation about each axis, and number of windows; and
 /// how much thrust varies from window to window, relative to its mean.
@@ -41,7 +40,5 @@ struct RotorAgreement {
 };
 /// What `rates_confirmed` rules out: rates about axes that run backwards.
 using RotorTest = std::function<RotorAgreement(bool rates_confirmed)>;
-/// Tries every order; what it makes of them waits until it is known of the rates.
-RotorTest test_rotors(const FlightRecord& record, const Vehicle& vehicle, std::span<const double> p);
 
 }  // namespace ident

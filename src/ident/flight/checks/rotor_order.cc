@@ -1,5 +1,7 @@
 // Do the rotors as mounted explain how the vehicle turns? Every other order of the rotors, and every reversed
 // axis, is tried against the order as stated.
+#include "ident/flight/checks/rotor_order.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,7 +11,6 @@
 #include <utility>
 
 #include "ident/core/parallel.h"
-#include "ident/flight/checks/log_self_test.h"
 #include "ident/flight/checks/rotor_windows.h"
 
 namespace ident {

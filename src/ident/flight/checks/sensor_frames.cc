@@ -6,6 +6,8 @@
 //   mean of f                      = R_WB^T (change of velocity / window - g), body axes                (4)
 //
 // The median of f itself points up, -g along z: a multirotor carries its weight by thrust along -z.
+#include "ident/flight/checks/sensor_frames.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,7 +16,6 @@
 
 #include "ident/core/parallel.h"
 #include "ident/core/statistics.h"
-#include "ident/flight/checks/log_self_test.h"
 #include "ident/flight/conditioning/motion_tracks.h"
 #include "ident/flight/conditioning/windowed_changes.h"
 

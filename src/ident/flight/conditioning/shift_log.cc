@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "ident/core/math.h"
+
 namespace ident {
 namespace {
 

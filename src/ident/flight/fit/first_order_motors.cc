@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/result/parameter.h"
+
 namespace ident {
 namespace {
 

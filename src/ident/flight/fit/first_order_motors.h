@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/result/parameter.h"
 
 namespace ident {
 

@@ -9,6 +9,7 @@
 
 #include "ident/core/error.h"
 #include "ident/flight/fit/fit_driver.h"
+#include "ident/flight/record/excerpts.h"
 
 namespace ident {
 namespace {

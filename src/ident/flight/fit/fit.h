@@ -49,37 +49,4 @@ struct FlightFit {
 /// Fit of `theta` to the record; both must outlive the result.
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options = {});
 
-/// Decrease of the cost that a step has to promise to be evaluated: the tolerance, or its share of the
-/// misfit.
-double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& options);
-
-/// Takes a fit to its minimum, up to `options.tolerance`, and finds information and covariance there. A last
-/// Newton step takes what is left and is not evaluated. An exact fit ends with fine steps, and with slopes in
-/// double precision where the rounding of single precision would count as information. `at_minimum`: the fit
-/// is at its minimum by slopes in single precision already.
-void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options, bool at_minimum = false);
-
-/// The shared unknowns from the first `training_share` of every arc alone: one Newton step from the fit.
-Eigen::VectorXd fit_of_training(const FlightFit& fit, const FlightRecord& record, const Theta& theta,
-                                double training_share);
-
-/// Covariance of u from `draws` block bootstraps: blocks drawn with repetition, one Newton step from the fit
-/// for each draw. The priors are drawn anew as well. Seeded.
-Eigen::MatrixXd bootstrap_covariance(const FlightFit& fit, const Theta& theta, int draws);
-
-/// Noise levels to start from: white noise from differences, a generous process noise.
-NoiseModel initial_noise(const FlightRecord& record);
-
-/// Re-estimates the noise levels from the last linearisation, which must have leverages: `rounds` steps for
-/// the process noise, one for the sensors. Returns the largest relative change of a standard deviation.
-double update_noise(FlightSmoother& smoother, int rounds);
-
-/// Chooses the axes of gusts, world or body, by likelihood; those of the world where the flight does not
-/// tell. The smoother has world axes and roughly the right noise. Returns whether the choice is beyond doubt,
-/// or does not matter.
-bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u);
-
-/// Length of chunks that is short enough for that noise, s; `fine`: see FlightFitOptions.
-double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine = true);
-
 }  // namespace ident

@@ -1,12 +1,14 @@
 // The end of a fit: minimum, covariance, and the constants by parts of the flight alone.
+#include "ident/flight/fit/fit_covariance.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
-#include "ident/flight/fit/fit.h"
 #include "ident/flight/fit/fit_steps.h"
 #include "ident/flight/fit/sandwich_covariance.h"
+#include "ident/flight/record/excerpts.h"
 
 namespace ident {
 namespace {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/flight/fit/fit_covariance.h"
+#include "ident/flight/fit/fit_noise.h"
 
 namespace ident {
 namespace {

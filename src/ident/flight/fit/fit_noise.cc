@@ -1,9 +1,10 @@
 // Noise levels: those to start from, those by the residuals, and the length of chunks that they ask for.
+#include "ident/flight/fit/fit_noise.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "ident/flight/conditioning/estimator_drift.h"
-#include "ident/flight/fit/fit.h"
 #include "ident/flight/smoother/input_error.h"
 
 namespace ident {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/lsq/least_squares.h"
 #include "ident/lsq/least_squares_minimise.h"
 
 namespace ident {

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "ident/flight/fit/fit.h"
+#include "ident/flight/fit/fit_noise.h"
+#include "ident/flight/record/excerpts.h"
 
 namespace ident {
 namespace {

@@ -1,9 +1,9 @@
 // Parts of a record: held-out flight, excerpts, pieces of arcs.
+#include "ident/flight/record/excerpts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "ident/flight/record/flight_record.h"
 
 namespace ident {
 

@@ -72,21 +72,8 @@ struct FlightRecord {
 /// vehicle turned.
 void require_turning(const Signals& logged);
 
-/// The record without its arcs.
-FlightRecord without_arcs(const FlightRecord& record);
-
 /// Share of each log to which a model is fitted; it is judged on the rest.
 inline constexpr double kTrainingShare = 0.7;
-
-/// End (s) of the first `training_share` of an arc's time.
-double training_end(const FlightArc& arc, double training_share);
-
-/// The rest of every arc after `training_share` of its time.
-FlightRecord held_out_of(const FlightRecord& record, double training_share);
-
-/// Stretches of about `seconds` each, evenly spread, that make `share` of the flight. Some short arcs are
-/// taken whole. Every log has a part.
-FlightRecord excerpt_of(const FlightRecord& record, double share, double seconds);
 
 /// Name of a channel: p, ax, attitude x, omega1.
 std::string channel_name(int channel);

@@ -79,11 +79,6 @@ Eigen::MatrixXd trim_slopes(const FlightRecord& record, const Trim& trim, const 
 std::vector<FreeConstant> trim_constants(const FlightRecord& record, const std::vector<double>& p,
                                          std::vector<std::string> also = {});
 
-/// Under the noise and scatter of `like` if that is given, else under what the flights themselves show.
-/// `hold_common`: what all rotors gain alike is the thrust constant's.
-TrimFit fit_trim(const FlightRecord& record, const Trim& trim, const Theta& theta, bool hold_common,
-                 const TrimFit* like = nullptr);
-
 /// The name of the thrust of rotor k, from 1, relative to what is stated; and whether a name is such a one.
 inline constexpr std::string_view kRotorRatio = "rotor_mismatch.ratio@";
 inline std::string rotor_ratio(std::size_t k) { return std::string(kRotorRatio) + std::to_string(k); }

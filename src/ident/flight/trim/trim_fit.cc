@@ -1,11 +1,12 @@
 // The balance of all stretches fitted, under their noise and what rotors scatter by from flight to flight.
+#include "ident/flight/trim/trim_fit.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/effects/all_parameters.h"
-#include "ident/flight/trim/trim.h"
 
 namespace ident {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "ident/core/error.h"
-#include "ident/core/json_number.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/gap/search/further.h"
+#include "ident/result/json_number.h"
 
 namespace ident {
 namespace {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
-#include "ident/core/json_number.h"
+#include "ident/flight/fit/fit_covariance.h"
+#include "ident/flight/record/excerpts.h"
 #include "ident/gap/hypotheses/cause_alone.h"
+#include "ident/result/json_number.h"
 
 namespace ident {
 namespace {

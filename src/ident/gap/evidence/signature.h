@@ -28,9 +28,4 @@ struct Signature {
 /// base model.
 std::vector<Signature> signatures(const FlightRecord& record, const SearchResult& search);
 
-nlohmann::ordered_json to_json(const std::vector<Signature>& signatures);
-
-/// Scatter, fitted line and 3-sigma band of each; no section when no cause was named.
-std::vector<Section> signature_sections(const std::vector<Signature>& signatures);
-
 }  // namespace ident

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ident/effects/all_parameters.h"
+#include "ident/flight/fit/fit_noise.h"
 
 namespace ident {
 namespace {

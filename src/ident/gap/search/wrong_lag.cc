@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/flight/record/excerpts.h"
 #include "ident/gap/search/further.h"
 
 namespace ident {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/flight/fit/fit_covariance.h"
+
 namespace ident {
 namespace {
 

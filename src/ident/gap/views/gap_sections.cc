@@ -11,6 +11,7 @@
 #include "ident/effects/catalogue.h"
 #include "ident/gap/statistics/by_channel.h"
 #include "ident/gap/views/gap_pictures.h"
+#include "ident/gap/views/signature_plot.h"
 
 namespace ident {
 namespace {

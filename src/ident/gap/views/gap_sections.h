@@ -7,10 +7,6 @@
 
 namespace ident {
 
-/// `where` of the contract: channels ranked, regimes, bands and times with their share of the explainable
-/// residual.
-nlohmann::ordered_json where_json(const ResidualWrench& wrench);
-
 std::vector<Section> gap_sections(const nlohmann::ordered_json& found, const ResidualWrench& before,
                                   const ResidualWrench& after, const GapEvidence& evidence = {});
 

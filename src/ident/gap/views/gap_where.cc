@@ -1,11 +1,11 @@
 // Where the residual lies, by channel, regime, frequency band and time.
+#include "ident/gap/views/gap_where.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
-
-#include "ident/gap/views/gap_sections.h"
 
 namespace ident {
 namespace {

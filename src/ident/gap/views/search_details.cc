@@ -1,7 +1,7 @@
 // Details of a search as JSON.
 #include "ident/gap/views/search_details.h"
 
-#include "ident/core/json_number.h"
+#include "ident/result/json_number.h"
 
 namespace ident {
 namespace {

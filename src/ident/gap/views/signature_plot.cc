@@ -1,13 +1,14 @@
 // Draws signatures, and writes them into the JSON without their points.
+#include "ident/gap/views/signature_plot.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/format_number.h"
-#include "ident/core/json_number.h"
-#include "ident/gap/evidence/signature.h"
 #include "ident/gap/views/gap_pictures.h"
+#include "ident/result/json_number.h"
 
 namespace ident {
 namespace {

@@ -10,6 +10,8 @@
 #include "ident/core/format_number.h"
 #include "ident/io/file/yaml_value.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident {
 namespace {

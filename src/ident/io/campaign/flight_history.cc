@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <set>
 
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 #include "ident/io/vehicle/vehicle_yaml.h"
 
 namespace ident {

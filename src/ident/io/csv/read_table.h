@@ -42,16 +42,8 @@ struct TableSchema {
   bool propeller_coefficients = false;  ///< files with RPM, CT and CP (UIUC) are understood
 };
 
-/// omega | omega_electrical | omega_optical, thrust; torque, delta, u, voltage, current, t.
-/// `omega` is the file's plain rotor speed (`omega`, `rpm`). Exports that name electrical and optical speed
-/// fill `omega_electrical` and `omega_optical` instead; which one to trust is for the estimator to find out.
-TableSchema thrust_schema();
 /// t, delta | u (pulse width in us), omega | omega_electrical | omega_optical; voltage.
-/// Time stamps may repeat (warning `time_repeated`), but do not go back.
-TableSchema motor_schema();
 /// axis (text: x, y, z, platform), period | time and oscillations, mass, radius, length; offset, amplitude,
-/// std.
-TableSchema pendulum_schema();
 
 /// Reads a table. Columns that the file does not have, or that are empty throughout, are absent from the
 /// result. Throws InputError (not readable, a required column missing, an implausible unit) or DataError (a

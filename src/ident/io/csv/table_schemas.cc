@@ -1,7 +1,6 @@
 // What thrust sweeps, motor steps and pendulum files hold, with the spellings of common exports:
 // RCbenchmark 15xx ("Motor Optical Speed (RPM)", "ESC signal (us)") and AutoQuad ESC32 logs ("Duty", "Batt.
 // Volts").
-#include "ident/io/csv/read_table.h"
 
 namespace ident {
 namespace {

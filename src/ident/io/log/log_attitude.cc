@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/math.h"
+
 namespace ident {
 namespace {
 

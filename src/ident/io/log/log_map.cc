@@ -1,4 +1,6 @@
 // Reads map files.
+#include "ident/io/log/log_map.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include "ident/core/nearest_word.h"
 #include "ident/io/file/yaml_value.h"
 #include "ident/io/log/log_signals.h"
-#include "ident/io/log/read_flight_log.h"
 
 namespace ident {
 namespace {

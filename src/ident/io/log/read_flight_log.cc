@@ -13,6 +13,8 @@
 #include "ident/io/log/log_quaternion.h"
 #include "ident/io/log/log_signals.h"
 #include "ident/io/log_cleaning/log_checks.h"
+#include "ident/io/log_cleaning/log_checks_motion.h"
+#include "ident/io/log_cleaning/log_checks_rotors.h"
 #include "ident/io/log_cleaning/log_jumps.h"
 #include "ident/io/log_cleaning/log_spikes.h"
 

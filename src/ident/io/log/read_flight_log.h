@@ -34,9 +34,6 @@ struct LogMap {
   long windows_line = 0;
 };
 
-/// Reads a map (YAML: columns, frames, windows). Throws InputError.
-LogMap read_log_map(const std::string& path);
-
 /// Reads a log in SI units, FRD and NED. The number of command columns has to be that of the vehicle's
 /// rotors; pulse widths need the vehicle's `command`. Rows with the same time stamp are put together,
 /// commands are held until the next one, and values that a log merely repeats between two samples of a slower

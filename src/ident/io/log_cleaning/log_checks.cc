@@ -11,6 +11,7 @@
 #include <span>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/io/log_cleaning/log_rows.h"
 
 namespace ident {

@@ -24,14 +24,6 @@ void drop_held(FlightLog& log, Components sensor, const std::string& name);
 /// while another one does not (warning `frozen_signal`).
 void drop_frozen(FlightLog& log, Components sensor, const std::string& name);
 
-/// Rotor speeds as sizes (warning `rotor_speed_sign` where some were negative), short drop-outs to zero as
-/// not sampled (`rotor_speed_dropouts`), and none at all where one of them never changes (`constant_signal`).
-void check_rotor_speeds(FlightLog& log, Components Omega);
-
-/// Warns of a command that never changes beside the speed of its rotor that does (`constant_command`); where
-/// the speeds of all rotors are known in most rows, they serve as input in place of the commands.
-void check_commands(FlightLog& log);
-
 /// A sensor under the name by which people know it.
 struct NamedSensor {
   std::string name;
@@ -52,13 +44,5 @@ void check_specific_force(FlightLog& log, long header_line, double gravity);
 /// A voltage of zero and less is none: not sampled. Throws InputError where the battery shows a voltage in
 /// another unit than that at which km holds.
 void check_voltage(FlightLog& log, long header_line, double voltage_of_km);
-
-/// Throws InputError where rates disagree with the attitude by the factor of degrees to radians;
-/// `quaternions` have no unit that could be wrong.
-void check_rates_against_attitude(const FlightLog& log, long header_line, bool quaternions);
-
-/// Throws InputError where velocities are along the axes of the body. `to_body` turns what was read as along
-/// those of the world to what it would be then.
-void check_velocity_axes(const FlightLog& log, long header_line, const Eigen::Matrix3d& to_body);
 
 }  // namespace ident

@@ -1,4 +1,6 @@
 // Rates, attitude, velocity and position against each other: units and axes.
+#include "ident/io/log_cleaning/log_checks_motion.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "ident/core/error.h"
-#include "ident/io/log_cleaning/log_checks.h"
 #include "ident/io/log_cleaning/log_rows.h"
 
 namespace ident {

@@ -1,11 +1,13 @@
 // What rotor speeds and commands say about each other.
+#include "ident/io/log_cleaning/log_checks_rotors.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "ident/io/log_cleaning/log_checks.h"
+#include "ident/core/math.h"
 #include "ident/io/log_cleaning/log_rows.h"
 
 namespace ident {

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/core/parallel.h"
 
 namespace ident {

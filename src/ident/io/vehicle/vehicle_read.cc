@@ -1,4 +1,6 @@
 // Reads vehicle and parameter files.
+#include "ident/io/vehicle/vehicle_read.h"
+
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // Writes vehicle and parameter files, every number in the shortest text that reads back as the same double.
+#include "ident/io/vehicle/vehicle_write.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "ident/io/file/write_file.h"
 #include "ident/io/vehicle/parameter_names.h"
 #include "ident/io/vehicle/vehicle_correlations.h"
-#include "ident/io/vehicle/vehicle_yaml.h"
 
 namespace ident {
 namespace {
