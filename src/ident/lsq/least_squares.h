@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "ident/lsq/least_squares_minimise.h"
 #include "ident/result/result.h"
 
 namespace ident {
