@@ -121,8 +121,4 @@ struct LeastSquaresFit {
   std::vector<NoiseDraw> noise_draws;
 };
 
-Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
-                 const RowTransform& transform, Effort effort);
-SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
-
 }  // namespace ident
