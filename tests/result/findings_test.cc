@@ -37,8 +37,7 @@ std::vector<fs::path> sources() {
 }
 
 /// All groups of all matches.
-std::set<std::string> matches(const std::string& text, const std::string& pattern) {
-  const std::regex expression(pattern);
+std::set<std::string> matches(const std::string& text, const std::regex& expression) {
   std::set<std::string> found;
   for (std::sregex_iterator at(text.begin(), text.end(), expression), end; at != end; ++at)
     for (std::size_t group = 1; group < at->size(); ++group)
@@ -50,21 +49,22 @@ const std::string kCode = "\"([a-z][a-z0-9]*(?:_[a-z0-9]+)*)\"";
 
 /// Codes of the warnings and violations that a source makes.
 std::set<std::string> codes_issued_by(const std::string& text) {
-  std::vector<std::string> patterns = {
-      R"(\bwarn\(\s*)" + kCode,
-      R"((?:warnings_?|findings|found|said)(?:\.|->)push_back\(\s*\{\s*)" + kCode +
-          R"(,\s*(?:fmt::format|"|what|told|text|message|log_?\.file))",
-      R"(Warning\{\s*(?:\w+ \? )?)" + kCode + R"((?:\s*:\s*)" + kCode + ")?,",
-      R"((?:violated|doubtful)\(\s*[^{;]*\{\s*)" + kCode + ",",
-      R"(Warning \w+(?:::\w+)?\([^)]*\)(?: const)? \{[^}]*?return \{\s*)" + kCode + ",",
-      R"(return\s*\{\s*\{\s*)" + kCode + R"(,\s*fmt::format)",
-      R"(return \{)" + kCode + R"(,\s*")"};
-  if (std::regex_search(text, std::regex(R"(push_back\(\s*\{code,)"))) {  // by a helper that takes the code
-    patterns.push_back(R"(\b(?:say|add)\((?:[^;{}]*?[\s(])?)" + kCode + R"(,\s*")");
-    patterns.push_back(R"(\?\s*)" + kCode + R"(\s*:\s*)" + kCode + ",");
-  }
+  static const std::vector<std::regex> direct = {
+      std::regex(R"(\bwarn\(\s*)" + kCode),
+      std::regex(R"((?:warnings_?|findings|found|said)(?:\.|->)push_back\(\s*\{\s*)" + kCode +
+                 R"(,\s*(?:fmt::format|"|what|told|text|message|log_?\.file))"),
+      std::regex(R"(Warning\{\s*(?:\w+ \? )?)" + kCode + R"((?:\s*:\s*)" + kCode + ")?,"),
+      std::regex(R"((?:violated|doubtful)\(\s*[^{;]*\{\s*)" + kCode + ","),
+      std::regex(R"(Warning \w+(?:::\w+)?\([^)]*\)(?: const)? \{[^}]*?return \{\s*)" + kCode + ","),
+      std::regex(R"(return\s*\{\s*\{\s*)" + kCode + R"(,\s*fmt::format)"),
+      std::regex(R"(return \{)" + kCode + R"(,\s*")")};
+  static const std::vector<std::regex> by_helper = {
+      std::regex(R"(\b(?:say|add)\((?:[^;{}]*?[\s(])?)" + kCode + R"(,\s*")"),
+      std::regex(R"(\?\s*)" + kCode + R"(\s*:\s*)" + kCode + ",")};
   std::set<std::string> codes;
-  for (const std::string& pattern : patterns) codes.merge(matches(text, pattern));
+  for (const std::regex& pattern : direct) codes.merge(matches(text, pattern));
+  if (text.find("push_back({code,") == std::string::npos) return codes;
+  for (const std::regex& pattern : by_helper) codes.merge(matches(text, pattern));
   return codes;
 }
 
@@ -94,17 +94,19 @@ TEST(Findings, EveryCodeThatTheProgramIssuesIsInTheList) {
 }
 
 TEST(Findings, EveryCodeThatTheProgramAsksForIsInTheList) {
-  const std::vector<std::string> patterns = {R"(has_warning\()" + kCode, R"(\.code == )" + kCode,
-                                             kCode + ", &Warning::code"};
+  const std::vector<std::regex> patterns = {std::regex(R"(has_warning\()" + kCode),
+                                            std::regex(R"(\.code == )" + kCode),
+                                            std::regex(kCode + ", &Warning::code")};
   for (const fs::path& file : sources())
-    for (const std::string& pattern : patterns)
+    for (const std::regex& pattern : patterns)
       for (const std::string& code : matches(content(file), pattern))
         EXPECT_NE(find_finding(code), nullptr) << file << " asks for " << code;
 }
 
 TEST(Findings, EveryCodeOfTheListIsIssued) {
+  const std::regex code(kCode);
   std::set<std::string> literals;
-  for (const fs::path& file : sources()) literals.merge(matches(content(file), kCode));
+  for (const fs::path& file : sources()) literals.merge(matches(content(file), code));
   for (const FindingInfo& finding : all_findings())
     EXPECT_TRUE(literals.contains(std::string(finding.code))) << finding.code << " is issued nowhere";
 }
@@ -126,13 +128,14 @@ TEST(Findings, TextsAreSentencesOfAtMostTwentyFiveWords) {
 
 // "(kUsual, kMost in io/log_cleaning/log_spikes.cc)": a renamed constant or a moved file is found here.
 TEST(Findings, ConstantsThatTheTextsNameStandInTheirFiles) {
-  const std::regex named(R"(((?:k[A-Z]\w*(?:, )?)*)(?: in )?([\w/]+/\w+\.(?:cc|h))\b)");
+  const std::regex named(R"(((?:k[A-Z]\w*(?:, )?)*)(?: in )?([\w/]+/\w+\.(?:cc|h))\b)"),
+      name(R"((k[A-Z]\w*))");
   for (const FindingInfo& finding : all_findings()) {
     const std::string all = std::string(finding.seen) + " " + std::string(finding.consequence);
     for (std::sregex_iterator at(all.begin(), all.end(), named), end; at != end; ++at) {
       const fs::path file = kSource / "src/ident" / (*at)[2].str();
       ASSERT_TRUE(fs::exists(file)) << finding.code << " names " << (*at)[2];
-      for (const std::string& constant : matches((*at)[1], R"((k[A-Z]\w*))"))
+      for (const std::string& constant : matches((*at)[1], name))
         EXPECT_TRUE(std::regex_search(content(file), std::regex("\\b" + constant + "\\b")))
             << finding.code << " names " << constant << " of " << (*at)[2];
     }
