@@ -4,7 +4,7 @@
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/io/vehicle/vehicle_read.h"
-#include "ident/report/findings_list.h"
+#include "ident/views/findings_list.h"
 
 namespace ident::app {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/report/findings_list.h"
+#include "ident/views/findings_list.h"
 
 namespace ident {
 namespace {

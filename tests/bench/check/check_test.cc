@@ -10,8 +10,8 @@
 #include "ident/bench/check/consistency.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/io/vehicle/vehicle_read.h"
-#include "ident/report/findings_list.h"
 #include "ident/result/findings.h"
+#include "ident/views/findings_list.h"
 #include "support/run_program.h"
 
 namespace ident {

@@ -1,5 +1,5 @@
 // Groups the findings by stage, for the terminal, for JSON and for the guide.
-#include "ident/report/findings_list.h"
+#include "ident/views/findings_list.h"
 
 #include <fmt/format.h>
 
