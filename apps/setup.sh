@@ -36,19 +36,30 @@ setup_plots() {
   fi
 }
 
-# Release build of the given targets. Off a terminal the compiler's output is shown only if it fails.
+# Release build of the given targets, each folder of the library as one source. On a terminal the build tool shows
+# its progress; elsewhere a line says every half minute how far it is, and the compiler's output is shown if it fails.
 build_release() {
-  local root=$1 log=$1/build/build.log
+  local root=$1 log=$1/build/build.log status=0 at
   shift
   mkdir -p "$root/build"
-  if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$log" 2>&1; then
+  if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DIDENT_UNITY=ON >"$log" 2>&1; then
     tail -n 60 "$log" >&2
     return 1
   fi
   if [ -t 1 ]; then
     cmake --build "$root/build" --target "$@"
-  elif ! cmake --build "$root/build" --target "$@" >"$log" 2>&1; then
-    tail -n 60 "$log" >&2
-    return 1
+    return
   fi
+  cmake --build "$root/build" --target "$@" >"$log" 2>&1 &
+  local build=$! seconds=0
+  while kill -0 "$build" 2>/dev/null; do
+    sleep 1
+    seconds=$((seconds + 1))
+    [ $((seconds % 30)) -eq 0 ] || continue
+    at=$(tail -n 1 "$log" | grep -oE '^\[[0-9]+/[0-9]+\]' || true)
+    echo "  building ${at:-...}"
+  done
+  wait "$build" || status=$?
+  [ "$status" = 0 ] || tail -n 60 "$log" >&2
+  return "$status"
 }

@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "ident/lsq/least_squares_minimise.h"
 #include "ident/result/result.h"
 
 namespace ident {
@@ -121,9 +120,5 @@ struct LeastSquaresFit {
   Eigen::MatrixXd noise_constants_covariance;
   std::vector<NoiseDraw> noise_draws;
 };
-
-Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
-                 const RowTransform& transform, Effort effort);
-SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
 
 }  // namespace ident

@@ -40,4 +40,8 @@ struct SteppedMinimum {
   bool rejected = false;  ///< ended at steps that failed
 };
 
+Minimum minimise(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
+                 const RowTransform& transform, Effort effort);
+SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::VectorXd& start);
+
 }  // namespace ident

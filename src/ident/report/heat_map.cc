@@ -58,7 +58,7 @@ void draw_colour_bar(Svg& svg, const Shade& shade, PaperPoint corner, double hei
   svg.text({corner.x + 20, corner.y + height}, format_number(shade.low, 2));
 }
 
-double widest(const std::vector<std::string>& names) {
+double widest_name(const std::vector<std::string>& names) {
   double width = 0;
   for (const std::string& name : names) width = std::max(width, label_width(name));
   return width;
@@ -75,14 +75,14 @@ struct Grid {
   bool turned;  ///< column names, where they do not fit beside each other
 
   explicit Grid(const Plot& plot) {
-    left = std::min(220.0, widest(plot.row_names)) + 14 + (plot.y_label.empty() ? 0 : 24);
+    left = std::min(220.0, widest_name(plot.row_names)) + 14 + (plot.y_label.empty() ? 0 : 24);
     const auto rows = static_cast<double>(plot.cells.rows()),
                columns = static_cast<double>(plot.cells.cols());
     cell_width = std::clamp((PlotFrame::kPaperWidth - left - kBarRoom) / columns, 4.0, 72.0);
     cell_height = std::clamp(420 / rows, 8.0, std::min(cell_width, 44.0));
     if (cell_height < 20) cell_height = std::clamp(620 / rows, 4.0, 20.0);
-    turned = widest(plot.column_names) > cell_width - 4;
-    names_height = turned ? 0.72 * widest(plot.column_names) + 16 : 22;
+    turned = widest_name(plot.column_names) > cell_width - 4;
+    names_height = turned ? 0.72 * widest_name(plot.column_names) + 16 : 22;
   }
   PaperPoint corner(Eigen::Index row, Eigen::Index column) const {
     return {left + cell_width * static_cast<double>(column), top + cell_height * static_cast<double>(row)};

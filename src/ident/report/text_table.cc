@@ -8,9 +8,10 @@
 namespace ident {
 namespace {
 
-constexpr int kGap = 2;                     // blanks between columns
-constexpr int kLongestWord = 28;            // a longer one (the name of a file) may be broken
-constexpr std::size_t kLongestNumber = 32;  // bytes; what is longer and starts with a digit is a sentence
+constexpr int kGap = 2;           // blanks between columns
+constexpr int kLongestWord = 28;  // a longer one (the name of a file) may be broken
+constexpr std::size_t kLongestNumberTable =
+    32;  // bytes; what is longer and starts with a digit is a sentence
 
 /// Where the decimal point stands, or where it would.
 std::size_t point_of(std::string_view cell) {
@@ -65,7 +66,7 @@ int least_width(const std::vector<std::string>& cells) {
   int width = 0;
   for (std::size_t r = 0; r < cells.size(); ++r) {
     const bool whole =
-        r > 0 && is_number(without_leading_blanks(cells[r])) && cells[r].size() <= kLongestNumber;
+        r > 0 && is_number(without_leading_blanks(cells[r])) && cells[r].size() <= kLongestNumberTable;
     for (std::size_t at = 0; at < cells[r].size();) {
       const std::size_t end = whole ? cells[r].size() : std::min(cells[r].find(' ', at), cells[r].size());
       const int word = display_width(std::string_view(cells[r]).substr(at, end - at));

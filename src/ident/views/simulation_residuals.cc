@@ -36,7 +36,7 @@ std::vector<double> standardized(const std::vector<double>& residual) {
   return out;
 }
 
-double usual_step(const std::vector<double>& t) {
+double median_step(const std::vector<double>& t) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
   std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
@@ -59,7 +59,7 @@ void add_channel(Section& section, const Plot& plot) {
   section.plots.push_back(residual_plot(names, simulated->y, plot.y_label, residual, none_rejected));
   section.plots.push_back(normal_quantile_plot(names, scaled));
   section.plots.push_back(autocorrelation_plot(names, residual));
-  section.plots.push_back(spectrum_plot(names, residual, usual_step(measured->x)));
+  section.plots.push_back(spectrum_plot(names, residual, median_step(measured->x)));
 }
 
 }  // namespace

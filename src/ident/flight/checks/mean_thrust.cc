@@ -24,8 +24,9 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, std::span<const
   constexpr const char* kWhy = "thrust as fitted is not what the vehicle felt";
   doubt_all(result, {"m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   // Where that much is missing, nothing that the fit says of the motors is theirs.
-  constexpr double kMuch = 0.2;  // of the weight
-  if (std::abs(push.mean) > kMuch * gravity) doubt_all(result, {"omega_m", "zeta_m", "dead_time"}, kWhy);
+  constexpr double kMuchThrust = 0.2;  // of the weight
+  if (std::abs(push.mean) > kMuchThrust * gravity)
+    doubt_all(result, {"omega_m", "zeta_m", "dead_time"}, kWhy);
 }
 
 }  // namespace ident

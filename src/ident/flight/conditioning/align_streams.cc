@@ -70,11 +70,11 @@ Track sum_of_force(const FlightArc& arc) {
 
 /// Whether a channel has samples enough for lines between them to stand for what lies there.
 bool sampled_often(const FlightArc& arc, int channel) {
-  constexpr double kLeast = 0.1;
+  constexpr double kLeastStreams = 0.1;
   double sampled = 0;
   for (std::size_t i = 0; i < arc.rows(); ++i)
     sampled += std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(channel)]);
-  return sampled > kLeast * static_cast<double>(arc.rows());
+  return sampled > kLeastStreams * static_cast<double>(arc.rows());
 }
 
 /// Where speeds are the input they are none of the channels.

@@ -120,11 +120,11 @@ bool is_noisy(const FlightRecord& record, int group) {
 // Whether samples follow the integral of the other sensor closer than its own noise would let them: they are
 // that integral, noise and all.
 bool are_integrated(const std::vector<Stray>& strays, const FlightRecord& record, int integrated) {
-  constexpr double kShare = 0.5, kFew = 100;
+  constexpr double kShare = 0.5, kFewDrift = 100;
   if (!is_noisy(record, integrated)) return false;
   double steps = 0, square = 0, seconds = 0;
   for (const Stray& one : strays) steps += one.steps, square += one.square, seconds += one.seconds;
-  return steps > kFew && square < kShare * density_of(record, integrated).sum() * seconds;
+  return steps > kFewDrift && square < kShare * density_of(record, integrated).sum() * seconds;
 }
 
 // Of each arc, of what can be integrated.

@@ -93,10 +93,10 @@ const std::shared_ptr<const MatrixXd>& cosines_over(Cosines& cache, Index sample
 // A spectrum that fades: the median of neighbours, and never more than at what is slower. What rises again is
 // a tone.
 void fade(Eigen::Ref<Eigen::VectorXd> power) {
-  constexpr Index kNeighbours = 3, kSlowest = 3;
+  constexpr Index kNeighbours = 3, kSlowestTones = 3;
   const Eigen::VectorXd raw = power;
-  for (Index k = kSlowest; k < raw.size(); ++k) {
-    const Index half = std::min({kNeighbours, k - kSlowest, raw.size() - 1 - k});
+  for (Index k = kSlowestTones; k < raw.size(); ++k) {
+    const Index half = std::min({kNeighbours, k - kSlowestTones, raw.size() - 1 - k});
     std::vector<double> near(raw.data() + k - half, raw.data() + k + half + 1);
     power[k] = std::min(median(near), power[k - 1]);
   }
@@ -175,8 +175,8 @@ ToneWindows tone_windows(const FlightRecord& record, int group, double seconds, 
 
 bool has_uneven_spectrum(const FlightRecord& record, int channel) {
   constexpr std::size_t kLength = 64;
-  constexpr double kBeyondDoubt = 6.0;  // standard deviations of a mean of periodograms
-  constexpr double kSlow = 20.0;        // Hz below which motion stands out
+  constexpr double kBeyondDoubtTones = 6.0;  // standard deviations of a mean of periodograms
+  constexpr double kSlow = 20.0;             // Hz below which motion stands out
   Periodograms blocks(kLength);
   std::vector<double> block;
   double samples = 0;
@@ -195,7 +195,7 @@ bool has_uneven_spectrum(const FlightRecord& record, int channel) {
   const double rate = samples / record.duration;
   const auto first = static_cast<std::size_t>(std::ceil(std::min(kSlow, 0.2 * rate) / rate * kLength)) + 1;
   const std::vector<double> fast(power.begin() + static_cast<std::ptrdiff_t>(first), power.end() - 1);
-  return std::ranges::max(fast) > (1 + kBeyondDoubt / std::sqrt(blocks.count())) * median(fast);
+  return std::ranges::max(fast) > (1 + kBeyondDoubtTones / std::sqrt(blocks.count())) * median(fast);
 }
 
 TurningRotors::TurningRotors(const FlightRecord& record)

@@ -13,8 +13,8 @@ namespace {
 /// The cubic through four samples; a line through the middle two where the others are far off, as at a gap.
 double interpolated_at(double when, const double* t, const double* y) {
   const double h = t[2] - t[1], share = (when - t[1]) / h;
-  constexpr double kEven = 1.5;
-  if (!(t[1] - t[0] < kEven * h) || !(t[3] - t[2] < kEven * h)) return y[1] + share * (y[2] - y[1]);
+  constexpr double kEvenLog = 1.5;
+  if (!(t[1] - t[0] < kEvenLog * h) || !(t[3] - t[2] < kEvenLog * h)) return y[1] + share * (y[2] - y[1]);
   double sum = 0;
   for (int i = 0; i < 4; ++i) {
     double weight = y[i];

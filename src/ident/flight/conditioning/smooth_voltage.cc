@@ -134,7 +134,7 @@ Samples at_rows(const FlightLog& log, const std::vector<double>& load, std::span
 // Rows without those where the voltage is elsewhere for a sample or two: what is there is no noise.
 std::vector<std::size_t> without_glitches(const FlightLog& log, const std::vector<std::size_t>& rows) {
   constexpr std::size_t kBeside = 2;
-  constexpr double kFar = 8.0, kLeast = 0.02;  // deviations; share of the voltage
+  constexpr double kFar = 8.0, kLeastVoltage = 0.02;  // deviations; share of the voltage
   std::vector<double> off(rows.size()), size;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     std::vector<double> about;
@@ -142,7 +142,7 @@ std::vector<std::size_t> without_glitches(const FlightLog& log, const std::vecto
     for (std::size_t i = from; i < to; ++i) about.push_back(log.vbat[rows[i]]);
     off[k] = std::abs(log.vbat[rows[k]] / median(about) - 1);
   }
-  const double most = std::max(kFar * 1.48 * median(off), kLeast);
+  const double most = std::max(kFar * 1.48 * median(off), kLeastVoltage);
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (off[k] < most) out.push_back(rows[k]);

@@ -47,18 +47,18 @@ double surprise(const SpeedSamples& samples, double q, double* variance) {
 SpeedLevel constant_level(const SpeedSamples& samples, double cube) {
   double variance = kNaN;
   const auto at = [&](double log_q) { return surprise(samples, std::exp(log_q) / cube, &variance); };
-  constexpr double kStep = 2.5, kGolden = 0.381966;
+  constexpr double kStepIntensity = 2.5, kGolden = 0.381966;
   double best = kSmooth, least = at(kSmooth);
-  for (double x = kSmooth + kStep; x <= kNoNoise; x += kStep)
+  for (double x = kSmooth + kStepIntensity; x <= kNoNoise; x += kStepIntensity)
     if (const double y = at(x); y < least) best = x, least = y;
-  double low = best - kStep, high = best + kStep;
+  double low = best - kStepIntensity, high = best + kStepIntensity;
   while (high - low > 0.2) {
     const double a = low + kGolden * (high - low), b = high - kGolden * (high - low);
     const bool left = at(a) < at(b);
     (left ? high : low) = left ? b : a;
   }
   const double found = 0.5 * (low + high);
-  if (!std::isfinite(least) || found >= kNoNoise - kStep / 2) return {kNaN, kNaN};
+  if (!std::isfinite(least) || found >= kNoNoise - kStepIntensity / 2) return {kNaN, kNaN};
   at(found);
   return {found, variance};
 }

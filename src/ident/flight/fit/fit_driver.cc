@@ -14,14 +14,9 @@ namespace {
 constexpr double kHuber = 4.0;  // standard deviations beyond which a residual counts linearly
 // Relative change of a noise level at which the axes of gusts are chosen, and at which many rounds end.
 constexpr double kNearly = 0.3;
-<<<<<<< HEAD
-// Change of a noise level at which it is known, and roughly known; rounds for the air's in each round.
-constexpr double kKnownWell = 0.03, kRoughly = 0.1;
-=======
 // Relative change of a noise level at which it is known, and roughly known. Rounds for the process noise
 // within each round.
-constexpr double kKnown = 0.03, kRoughly = 0.1;
->>>>>>> wt-docs
+constexpr double kKnownDriver = 0.03, kRoughly = 0.1;
 constexpr int kManyRetuned = 9, kRetuned = 6, kFewRetuned = 3;
 // Steps before the noise is estimated: what the model misses there would count as noise.
 constexpr int kFirstSteps = 4;
@@ -148,7 +143,7 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     }
     tell(static_cast<double>(round + 1) / options_.noise_rounds);
     const bool known =
-        change < (options_.rough_noise ? kRoughly : kKnownWell) || (round >= 5 && change < kNearly);
+        change < (options_.rough_noise ? kRoughly : kKnownDriver) || (round >= 5 && change < kNearly);
     bool turned = false;
     if (options_.choose_axes && !axes_chosen_ && !axes_asked_ &&
         (known || (change < kNearly && newton_step(*smoother_, u_).fall < kNear * theta_.size()))) {

@@ -10,13 +10,8 @@
 namespace ident {
 namespace {
 
-<<<<<<< HEAD
-constexpr double kNoGust = 0.01;            // m/s^2: weaker ones move no constant, whatever their axes
-constexpr double kNoiseBeyondDoubt = 10.0;  // fall of minus twice the log likelihood
-=======
-constexpr double kNoGust = 0.01;       // m/s^2: weaker gusts move no constant, whatever their axes
-constexpr double kBeyondDoubt = 10.0;  // decrease of -2 log likelihood
->>>>>>> wt-docs
+constexpr double kNoGust = 0.01;            // m/s^2: weaker gusts move no constant, whatever their axes
+constexpr double kBeyondDoubtNoise = 10.0;  // decrease of -2 log likelihood
 constexpr int kRetune = 3;
 // Shortest chunks of a refinement and of a search, s: in a search, models that miss much would ask for the
 // shortest and cost time only. Longest chunks, s, and how much longer those of a search are.
@@ -101,11 +96,11 @@ bool choose_axes(FlightSmoother& smoother, const Eigen::VectorXd& u) {
   NoiseModel body = world;
   body.axes = GustAxes::body;
   const double in_body = surprise_of(body);
-  if (in_body < in_world - kNoiseBeyondDoubt) return true;
+  if (in_body < in_world - kBeyondDoubtNoise) return true;
   smoother.set_noise(world);
   smoother.set_states(states);
   smoother.settle(u, 1);
-  return in_world < in_body - kNoiseBeyondDoubt;
+  return in_world < in_body - kBeyondDoubtNoise;
 }
 
 double chunk_for(const FlightRecord& record, const NoiseModel& noise, bool fine) {

@@ -16,6 +16,9 @@ namespace {
 
 using Eigen::VectorXd;
 
+// What "identifiable" means (notebooks/guide/formats.md): a standard deviation below this share of the
+// prior's, or, without a prior, of the value.
+constexpr double kShareOfPrior = 0.5, kShareOfValue = 0.1;
 constexpr double kMoved = 1e-6;    // of the standard deviation of the prior
 constexpr double kHeard = 0.05;    // least share of information from flight for a pull to mean anything
 constexpr double kTogether = 0.1;  // least correlation of priors that are named together
@@ -35,6 +38,14 @@ VectorXd pulls_together(const PriorTerms& prior, const FlightFit& fit) {
   for (Eigen::Index i = 0; i < pulls.size(); ++i)
     if (variance[i] > kHeard * P(i, i)) pulls[i] = against[i] / std::sqrt(variance[i]);
   return pulls;
+}
+
+// A constant that the bench knows well is no open question where flight adds nothing to it.
+std::string why_not(const Parameter& p) {
+  if (!p.prior_std) return "these logs do not determine it";
+  const bool known = *p.prior_std < kShareOfValue * std::abs(*p.prior_value);
+  return known ? "known from what was stated, these logs add little"
+               : "these logs say little beyond what was known";
 }
 
 }  // namespace
@@ -68,18 +79,17 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
       p.pull = c.known_with.empty() ? (p.value - c.prior_value) / (share * std::sqrt(stated + colour * alone))
                                     : pulls[i];
       p.known_together = !c.known_with.empty();
-      p.identifiable = p.std < 0.5 * *c.prior_std;
+      p.identifiable = p.std < kShareOfPrior * *c.prior_std;
     } else {
       p.from_flight = 1.0;
       // What is zero for most vehicles is judged against its usual size.
       const bool mostly_zero = c.index == param::dead_time || c.index == param::Omega_0;
-      p.identifiable = p.std < 0.1 * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
+      p.identifiable = p.std < kShareOfValue * std::max(std::abs(p.value), mostly_zero ? c.scale : 0.0);
     }
     const bool told = c.prior_std ? std::abs(p.value - c.prior_value) > kMoved * *c.prior_std
                                   : p.std < std::abs(p.value) && c.name.find('.') == std::string::npos;
     p.joint = !p.identifiable && told;
-    if (!p.identifiable)
-      p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
+    if (!p.identifiable) p.note = why_not(p);
     out.push_back(p);
   }
   return out;

@@ -13,13 +13,8 @@
 namespace ident {
 namespace {
 
-<<<<<<< HEAD
-// Below so many standard deviations it is chance, in a body that is nearly flat.
-constexpr double kInertiaByChance = 2.0;
-=======
 // Violations below so many standard deviations are chance, in a body that is nearly flat.
-constexpr double kByChance = 2.0;
->>>>>>> wt-docs
+constexpr double kByChanceInertia = 2.0;
 
 // A second moment of mass below this share of their sum counts as zero.
 constexpr double kFlat = 1e-9;
@@ -80,7 +75,7 @@ void warn_of_inertia(Result& result, const Theta& theta, const FlightFit& fit) {
                     "deviations: {}",
                     names[c], format_number(p[static_cast<std::size_t>(moments[c])]), names[a], names[b],
                     format_number(sum), format_number(by, 2),
-                    by < kInertiaByChance ? "by chance, if the vehicle is nearly flat"
+                    by < kByChanceInertia ? "by chance, if the vehicle is nearly flat"
                                           : "another constant is wrong (arm, kQ, mass), or an effect is "
                                             "missing"));
   }

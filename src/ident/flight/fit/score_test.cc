@@ -12,9 +12,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) {
-  constexpr double kMatters = 1e-3;         // of the unit step; less is rounding
-  constexpr std::ptrdiff_t kFewBlocks = 8;  // too few to tell how much coloured residuals spread;
-  constexpr double kUntold = 4.0;           // this factor is assumed then
+  constexpr double kMattersTest = 1e-3;         // of the unit step; less is rounding
+  constexpr std::ptrdiff_t kFewBlocksTest = 8;  // too few to tell how much coloured residuals spread;
+  constexpr double kUntold = 4.0;               // this factor is assumed then
   PriorTerms prior = theta.prior(fit.u).loosened(at, 1.0);
   prior.slope[at] = 0;
   const Eigen::Index n = fit.u.size();
@@ -25,11 +25,11 @@ double contradiction(const Theta& theta, const FlightFit& fit, Eigen::Index at) 
   H.diagonal() *= 1 + 1e-12;  // undetermined directions
   const MatrixXd covariance = inverse_of(H);
   const VectorXd direction = covariance.col(at), step = -covariance * g;
-  if (!(std::abs(step[at]) > kMatters && direction[at] > 0)) return 0;
+  if (!(std::abs(step[at]) > kMattersTest && direction[at] > 0)) return 0;
   double spread = 0;
   for (const ScoreBlock& block : fit.blocks)
     spread += std::pow(direction.dot(block.score + block.information * step), 2);
-  const bool few = std::ssize(fit.blocks) < kFewBlocks;
+  const bool few = std::ssize(fit.blocks) < kFewBlocksTest;
   const double stretch = few ? kUntold : std::max(spread / direction.dot(F * direction), 1.0);
   return step[at] * step[at] / (direction[at] * stretch);
 }

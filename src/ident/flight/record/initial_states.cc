@@ -67,9 +67,9 @@ double attitude_noise(const FlightRecord& record, int axis) {
 // Means over the time that halves the noise at usual accelerations. Near the ground a height that is off by
 // its noise may be one from which the simulation diverges.
 std::vector<double> averaged(const std::vector<double>& t, const std::vector<double>& column, double noise) {
-  constexpr double kAcceleration = 5.0, kLongest = 0.05;  // m/s^2, s
+  constexpr double kAcceleration = 5.0, kLongestWalk = 0.05;  // m/s^2, s
   if (column.empty()) return column;
-  const double reach = std::min(std::sqrt(3 * noise / kAcceleration), kLongest);
+  const double reach = std::min(std::sqrt(3 * noise / kAcceleration), kLongestWalk);
   std::vector<double> out(column.size());
   for (std::size_t i = 0, begin = 0, end = 0; i < column.size(); ++i) {
     const auto within = [&](std::size_t k) { return std::abs(t[k] - t[i]) <= reach; };

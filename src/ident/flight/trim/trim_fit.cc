@@ -82,11 +82,11 @@ Eigen::Vector4d noise_of(const Trim& trim, const VectorXd& y) {
 // rotors gain or lose together, as by the state of the battery, says nothing of how unlike they are.
 TrimScatter scatter_of(const Trim& trim, const VectorXd& y, const Eigen::Vector4d& noise, const MatrixXd& A,
                        const MatrixXd& open) {
-  constexpr double kLeast = 1e-3, kMost = 0.3, kStep = 0.25, kStepOfLevel = 0.7;  // of logarithms
+  constexpr double kLeast = 1e-3, kMostFit = 0.3, kStep = 0.25, kStepOfLevel = 0.7;  // of logarithms
   std::vector<TrimScatter> all;
   std::vector<double> weight;
-  for (double rotor = std::log(kLeast); rotor < std::log(kMost); rotor += kStep)
-    for (double level = std::log(kLeast); level < std::log(kMost); level += kStepOfLevel) {
+  for (double rotor = std::log(kLeast); rotor < std::log(kMostFit); rotor += kStep)
+    for (double level = std::log(kLeast); level < std::log(kMostFit); level += kStepOfLevel) {
       all.push_back({std::exp(rotor), std::exp(level)});
       const Eigen::LLT<MatrixXd> llt(covariance(trim, noise, A, all.back()) + open);
       const double usual = rotor - std::log(kUsualScatter), usual_level = level - std::log(kUsualLevel);

@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr double kGravity = 9.80665;      // m/s^2, standard
 constexpr double kPound = 0.45359237;     // kg, avoirdupois
 constexpr double kOunce = kPound / 16.0;  // kg
-constexpr double kInch = 0.0254;          // m
+constexpr double kInchUnits = 0.0254;     // m
 constexpr double kRpm = 2.0 * pi / 60.0;  // rad/s
 constexpr double kDegree = pi / 180.0;    // rad
 
@@ -38,8 +38,8 @@ const std::vector<Entry>& entries() {
       {length, 1.0, {"m", "meter", "metre", "meters", "metres"}},
       {length, 1e-2, {"cm"}},
       {length, 1e-3, {"mm"}},
-      {length, kInch, {"in", "inch", "inches"}},
-      {length, 12.0 * kInch, {"ft"}},
+      {length, kInchUnits, {"in", "inch", "inches"}},
+      {length, 12.0 * kInchUnits, {"ft"}},
       {mass, 1.0, {"kg"}},
       {mass, 1e-3, {"g", "gram", "grams"}},
       {mass, kPound, {"lb", "lbs"}},
@@ -48,11 +48,11 @@ const std::vector<Entry>& entries() {
       {velocity, 1e-2, {"cm/s"}},
       {velocity, 1e-3, {"mm/s"}},
       {velocity, 1.0 / 3.6, {"km/h", "kph"}},
-      {velocity, 12.0 * kInch, {"ft/s"}},
+      {velocity, 12.0 * kInchUnits, {"ft/s"}},
       {acceleration, 1.0, {"m/s2", "m/s/s", "ms-2"}},
       {acceleration, kGravity, {"g", "g0", "gn"}},
       {acceleration, 1e-3 * kGravity, {"mg"}},
-      {acceleration, 12.0 * kInch, {"ft/s2"}},
+      {acceleration, 12.0 * kInchUnits, {"ft/s2"}},
       {angle, 1.0, {"rad", "radian", "radians"}},
       {angle, kDegree, {"deg", "degree", "degrees"}},
       {angle, 1e-2 * kDegree, {"cdeg", "centideg"}},
@@ -79,12 +79,14 @@ const std::vector<Entry>& entries() {
       {torque, 1e-3 * kGravity, {"gf·m", "gfm", "gm"}},
       {torque, 1e-2 * kGravity, {"kgf·cm", "kgfcm", "kgcm", "kg-cm", "kgf-cm"}},
       {torque, kGravity, {"kgf·m", "kgfm", "kgm", "kgf-m"}},
-      {torque, kOunce * kGravity * kInch, {"oz·in", "ozin", "ozfin", "oz-in", "ozf-in", "inoz", "in-oz"}},
       {torque,
-       kPound * kGravity * kInch,
+       kOunce * kGravity * kInchUnits,
+       {"oz·in", "ozin", "ozfin", "oz-in", "ozf-in", "inoz", "in-oz"}},
+      {torque,
+       kPound * kGravity * kInchUnits,
        {"lbf·in", "lbfin", "lbin", "lbf-in", "lb-in", "inlb", "in-lb", "inlbf"}},
       {torque,
-       12.0 * kPound * kGravity * kInch,
+       12.0 * kPound * kGravity * kInchUnits,
        {"lbf·ft", "lbfft", "lbft", "lbf-ft", "lb-ft", "ftlb", "ft-lb", "ftlbf"}},
       {voltage, 1.0, {"V", "v", "volt", "volts"}},
       {voltage, 1e-3, {"mV"}},
@@ -130,7 +132,7 @@ bool matches(const std::string& written, const std::string& spelling) {
   return written == known || (known == lower(known) && lower(written) == known);
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
@@ -162,14 +164,14 @@ std::string known_units(Dimension dimension) {
 }
 
 HeaderName split_header(std::string_view header) {
-  header = trimmed(header);
+  header = without_blanks(header);
   for (const auto& [open, close] : {std::pair('[', ']'), std::pair('(', ')')}) {
     if (header.empty() || header.back() != close) continue;
     const std::size_t at = header.rfind(open);
     if (at == std::string_view::npos) continue;
-    const std::string_view unit = trimmed(header.substr(at + 1, header.size() - at - 2));
+    const std::string_view unit = without_blanks(header.substr(at + 1, header.size() - at - 2));
     if (open == '[' && is_index(unit) && at > 0 && header[at - 1] != ' ') continue;
-    HeaderName name{std::string(trimmed(header.substr(0, at))), std::nullopt};
+    HeaderName name{std::string(without_blanks(header.substr(0, at))), std::nullopt};
     if (!unit.empty()) name.unit = std::string(unit);
     return name;
   }

@@ -177,9 +177,9 @@ void check_voltage(FlightLog& log, long header_line, double voltage_of_km) {
   for (double& v : log.vbat)
     if (!(v > 0)) v = kNaN;
   if (std::ranges::all_of(log.vbat, [](double v) { return std::isnan(v); })) log.vbat.clear();
-  constexpr double kLeast = 0.4, kMost = 2.0;  // of it: no battery flies with less, or has more
+  constexpr double kLeast = 0.4, kMostChecks = 2.0;  // of it: no battery flies with less, or has more
   const double usual = middle_of(log.vbat).value_or(voltage_of_km);
-  if (usual > kLeast * voltage_of_km && usual < kMost * voltage_of_km) return;
+  if (usual > kLeast * voltage_of_km && usual < kMostChecks * voltage_of_km) return;
   throw InputError(log.file, header_line, "vbat",
                    fmt::format("is {:.3g} V mostly, and battery_voltage of the vehicle file {:.3g} V: one of "
                                "them is in another unit, or of another battery; without vbat the log can be "

@@ -89,8 +89,8 @@ void check_rates_against_attitude(const FlightLog& log, long header_line, bool q
 
 void check_velocity_axes(const FlightLog& log, long header_line, const Eigen::Matrix3d& to_body) {
   if (!log.has_velocity() || !log.has_position() || !log.has_attitude()) return;
-  constexpr double kLeast = 0.5, kMost = 1.5;  // s over which a position is compared
-  constexpr double kFar = 3.0, kShare = 0.1;   // m in all, and of its square what the right axes leave
+  constexpr double kLeast = 0.5, kMostMotion = 1.5;  // s over which a position is compared
+  constexpr double kFar = 3.0, kShare = 0.1;         // m in all, and of its square what the right axes leave
   Eigen::Vector3d by_world = Eigen::Vector3d::Zero(), by_body = by_world, x0 = by_world;
   double path = 0, left_world = 0, left_body = 0;
   std::optional<std::size_t> start, last;
@@ -104,7 +104,7 @@ void check_velocity_axes(const FlightLog& log, long header_line, const Eigen::Ma
     last = i;
     const double passed = start ? log.t[i] - log.t[*start] : 0.0;
     if (start && passed < kLeast) continue;
-    if (start && passed < kMost) {
+    if (start && passed < kMostMotion) {
       path += (x - x0).norm();
       left_world += (x - x0 - by_world).squaredNorm(), left_body += (x - x0 - by_body).squaredNorm();
     }

@@ -17,17 +17,17 @@ namespace {
 
 // Off by so many of the usual deviations, and by so many times what all but a twentieth of the samples are:
 // in a log that is slow against its flight what is usual says little of a turn.
-constexpr double kUsual = 25.0;
-constexpr double kMost = 6.0;
+constexpr double kUsualSpread = 25.0;
+constexpr double kMostSpikes = 6.0;
 // What the neighbours differ, against a spike; and the share of a signal beyond which it is no accident.
 constexpr double kAgree = 0.3;
 constexpr double kAccident = 0.01;
 constexpr double kImpossible = 100.0;  // times what all but a hundredth of the commands are
-constexpr double kOneGap = 3.0;  // times the usual step: samples further apart say nothing of each other
+constexpr double kOneSpikeGap = 3.0;  // times the usual step: samples further apart say nothing of each other
 // What comes and goes at once and lasts no longer than so many s is no motion: rotors take longer to push.
 constexpr double kSudden = 0.011;
-constexpr std::size_t kFew = 50;
-constexpr double kNormal = 1.4826;  // standard deviation over the median of sizes
+constexpr std::size_t kFewSamples = 50;
+constexpr double kNormalSpread = 1.4826;  // standard deviation over the median of sizes
 
 /// Quantiles at rising shares.
 template <std::size_t count>
@@ -69,19 +69,19 @@ std::vector<std::size_t> spikes_of(const std::vector<double>& t, const std::vect
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isnan(values[i])) rows.push_back(i);
-  if (rows.size() < kFew) return {};
+  if (rows.size() < kFewSamples) return {};
   std::vector<double> steps;
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(t[rows[k]] - t[rows[k - 1]]);
-  const double together = kOneGap * 4 * quantiles<1>(std::move(steps), {0.5})[0];
+  const double together = kOneSpikeGap * 4 * quantiles<1>(std::move(steps), {0.5})[0];
   std::vector<double> off(rows.size(), 0.0);
   const auto at = [&](std::size_t k) { return values[rows[k]]; };
   for (std::size_t k = 2; k + 2 < rows.size(); ++k)
     if (t[rows[k + 2]] - t[rows[k - 2]] < together)
       off[k] = std::abs(at(k) - (4 * (at(k - 1) + at(k + 1)) - at(k - 2) - at(k + 2)) / 6);
   const auto [middle, most] = quantiles<2>(off, {0.5, 0.95});
-  const double usual = kNormal * middle;
+  const double usual = kNormalSpread * middle;
   if (!(usual > 0)) return {};  // steps of a coarse sensor
-  const double limit = std::max(kUsual * usual, kMost * most);
+  const double limit = std::max(kUsualSpread * usual, kMostSpikes * most);
   std::vector<std::size_t> spikes;
   for (std::size_t k = 2; k + 2 < rows.size(); ++k) {
     if (!(off[k] > limit)) continue;
@@ -103,7 +103,7 @@ std::vector<std::size_t> impossible_in(const std::vector<double>& values) {
   for (const double value : values)
     if (std::isfinite(value)) sizes.push_back(std::abs(value));
   std::vector<std::size_t> out;
-  if (sizes.size() < kFew) return out;
+  if (sizes.size() < kFewSamples) return out;
   const double most = kImpossible * quantiles<1>(std::move(sizes), {1 - kAccident})[0];
   for (std::size_t i = 0; i < values.size() && most > 0; ++i)
     if (std::abs(values[i]) > most) out.push_back(i);

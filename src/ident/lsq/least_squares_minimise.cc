@@ -1,5 +1,5 @@
 // The only place that talks to Ceres: dense QR, tolerances at rounding level, several initial trust regions.
-#include "ident/lsq/least_squares.h"
+#include "ident/lsq/least_squares_minimise.h"
 
 #include <ceres/ceres.h>
 #include <glog/logging.h>
