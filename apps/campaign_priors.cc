@@ -94,8 +94,8 @@ std::optional<Warning> replaces_refined(const Campaign& campaign, const Result& 
   if (replaced.empty()) return std::nullopt;
   return Warning{
       "refine_again",
-      fmt::format("{}: what a refinement found is replaced by what the bench says, and the rest of what "
-                  "it found rests on what the bench said then: run `ident flightlog --refine` again",
+      fmt::format("{}: the bench values replace those of a refinement, and the other refined constants rest "
+                  "on the earlier bench values. Run `ident flightlog --refine` again.",
                   fmt::join(replaced, ", "))};
 }
 

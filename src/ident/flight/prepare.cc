@@ -50,10 +50,9 @@ std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::ve
   if (const FlightLog* seldom = speeds ? seldom_beside_speeds(logs) : nullptr) {
     warnings.push_back(
         {"seldom_commands",
-         fmt::format(
-             "{}: commands come at less than 49 Hz, rotor speeds twice as often or more: speeds serve as "
-             "input, and of the motors nothing is said{}",
-             seldom->file, logs.size() > 1 ? "; give other logs alone for that" : "")});
+         fmt::format("{}: new commands come below 49 Hz, rotor speeds at least twice as often. Rotor speeds "
+                     "are the input, and the motors are not estimated. Log every command{}.",
+                     seldom->file, logs.size() > 1 ? ", or give the other logs alone" : "")});
     return without_commands(logs);
   }
   for (const FlightLog& log : logs) {
@@ -61,12 +60,13 @@ std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::ve
     commands.push_back(log.has_commands() && !contradict);
     if (!contradict) continue;
     const std::string what = fmt::format(
-        "{}: no rotor turns as any of the commands says, whatever the motors' lag: commands or "
-        "rotor speeds are not what they are said to be",
+        "{}: no rotor follows any of the commands, whatever the lag of the motors: commands or rotor speeds "
+        "are not those of this flight",
         log.file);
     if (!speeds) throw DataError(what + "; the speeds cannot serve instead, for another log has none");
     warnings.push_back(
-        {"commands_contradict_speeds", what + "; the speeds are taken, and nothing is said of the motors"});
+        {"commands_contradict_speeds",
+         what + ". The speeds are the input, and the motors are not estimated. Check both columns."});
   }
   const auto commanded = std::ranges::count(commands, true);
   if (commanded == std::ssize(logs) || !speeds) return {};
@@ -74,8 +74,8 @@ std::vector<FlightLog> with_like_inputs(std::span<const FlightLog> logs, std::ve
   if (commanded > 0)
     warnings.push_back(
         {"commands_left_out",
-         fmt::format("{} has no usable commands: rotor speeds serve as input for all logs, and of "
-                     "the motors nothing is said; give the others alone for that",
+         fmt::format("{} has no usable commands. Rotor speeds are the input of all logs, and the motors are "
+                     "not estimated. Give the other logs alone to estimate them.",
                      without->file)});
   return without_commands(logs);
 }
@@ -149,9 +149,9 @@ FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> give
   tell(entry.record.warnings);
   if (has_noisy_input(entry.record))
     result.warn("speeds_as_input",
-                "no commands: measured rotor speeds are the input, smoothed; what depends on the smoothing "
-                "widens the intervals, and a diagnosis can hardly tell their noise from a gap: log the "
-                "commands too");
+                "The logs have no commands: measured rotor speeds are the input, after smoothing. What "
+                "depends on the smoothing widens the intervals, and a diagnosis hardly tells their noise "
+                "from a gap. Log the commands too.");
   entry.tested = found_by_reading(logs, "wrong_frame");
   if (!entry.tested.empty()) return entry;  // and told
   entry.tested = self_test(entry.record, logs, vehicle, entry.p);

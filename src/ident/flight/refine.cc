@@ -101,10 +101,12 @@ void warn_of_correlated(Result& result) {
       members.push_back(names[static_cast<std::size_t>(k)]);
     }
     if (members.size() == 2)
-      result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f})",
+      result.warn("correlated", fmt::format("{} and {} are known only together (correlation {:.3f}). Use "
+                                            "them together; a bench value of one fixes the other.",
                                             members[0], members[1], most));
     else if (members.size() > 2)
-      result.warn("correlated", fmt::format("{} are known only together (correlations up to {:.3f} in size)",
+      result.warn("correlated", fmt::format("{} are known only together (correlations up to {:.3f} in size). "
+                                            "Use them together; a bench value of one fixes the others.",
                                             fmt::join(members, ", "), std::abs(most)));
   }
 }
@@ -121,8 +123,8 @@ Result refined_by_speeds(const Vehicle& vehicle, std::span<const FlightLog> logs
                          const RefineOptions& options, const FeltJitter& jitter) {
   Result result = refine_as_logged(vehicle, without_commands(logs), options);
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "speeds_as_input"; });
-  result.warnings.push_back(
-      jitter.warning("the speeds are taken for what the rotors do, and nothing is said of the motors"));
+  result.warnings.push_back(jitter.warning(
+      "the speeds are the input, and the motors are not estimated. Look for unsteady motor control."));
   return result;
 }
 
@@ -136,8 +138,9 @@ Result refined_as_first_order(const Vehicle& vehicle, std::span<const FlightLog>
     zeta_m->note = "held near 50: motors of first order";
   }
   result.warn("first_order_motors",
-              fmt::format("rotors follow their commands as of first order, {} s late ({} s): only that lag, "
-                          "2 zeta_m/omega_m, can be told, and zeta_m is held near 50",
+              fmt::format("Rotors follow their commands with a first-order lag of {} s (± {} s). Only that "
+                          "lag, 2 zeta_m/omega_m, is known, and zeta_m is held near 50. A bench record of "
+                          "steps tells the two apart.",
                           format_number(lag.seconds, 3), format_number(lag.std, 1)));
   return result;
 }
@@ -173,9 +176,8 @@ void warn_of_filter_lag(Result& result, const Signals& logged) {
   if (!filter_lag_is_open(result, logged) || result.find("dead_time")) return;
   result.warn(
       "filter_lag",
-      "rates and specific force were filtered, and without attitude nothing tells how late that made "
-      "them: it counts as lag of the motors, which comes out longer by that; '--free dead_time' takes "
-      "a delay out of it");
+      "Rates and specific force were filtered, and without attitude the delay of the filter is unknown. It "
+      "counts as lag of the motors, which comes out longer by it. Log attitude, or use '--free dead_time'.");
 }
 
 // What a fit refers to; `body` is the nearest with an inertia that a body can have.

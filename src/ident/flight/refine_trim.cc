@@ -17,11 +17,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 Warning without_turning() {
-  return {"no_turning",
-          "neither rates nor attitude were logged: how the vehicle turned is not known, and so not what its "
-          "rotors do from moment to moment. What is left is their balance over some seconds: thrust for a "
-          "command, and the thrust of each rotor relative to the others. Motors, inertia, drag, delays and "
-          "sensors cannot be seen; log rates or attitude"};
+  return {
+      "no_turning",
+      "The logs have neither rates nor attitude, so the motion of the vehicle is not known. Only the balance "
+      "of the rotors over some seconds is estimated: thrust for a command, and each rotor relative to the "
+      "others. Motors, inertia, drag, delays and sensors are not. Log rates or attitude."};
 }
 
 std::string scatter_in_words(const Trim& trim, const TrimScatter& scatter) {
@@ -96,8 +96,8 @@ void refine_trim(Result& result, const FlightRecord& record, const std::vector<d
           std::pow(std::max(found.scatter.level, kUsualLevel) / (carries == "kT" ? 1 : 2), 2);
   result.warnings.push_back(without_turning());
   if (trim.logs == 1 && found.scatter.rotor > 0)
-    result.warn("one_flight", fmt::format("how much the rotors' balance changes from flight to flight is not "
-                                          "known from one: {:.0f} % is assumed; give several logs",
+    result.warn("one_flight", fmt::format("One flight does not tell how the balance of the rotors changes "
+                                          "from flight to flight. {:.0f} % is assumed. Give several logs.",
                                           100 * found.scatter.rotor));
   result.parameters = flight_parameters(theta, found.fit, "flightlog");
   result.fit["seconds"] = record.duration;

@@ -114,8 +114,9 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   // Pieces may be too short to tell how sensors are mounted and rotors turn.
   if (!result || (all && wrong(*result))) {
     all->warn("motors_off",
-              "motors are off (commands of 0) so often that little can be told without those rows: what "
-              "they do there is taken from their commands, which does not hold for motors that coast");
+              "Motors are off (commands of 0) so often that the other rows tell little. These rows are used "
+              "as if motors followed their commands. Motors that coast do not, which biases the motor "
+              "constants. Keep every command above 0 in flight.");
     return *all;
   }
   std::string with = "nothing flies with them";
@@ -124,10 +125,8 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     if (name.empty()) return *all;
     with = fmt::format("with them {} would be {}", name, format_number(all->find(name)->value, 3));
   }
-  result->warn("not_driven",
-               "rows around commands of 0 are not used: a motor that is off runs down otherwise than it "
-               "follows its commands, and " +
-                   with);
+  result->warn("not_driven", "Rows around commands of 0 are not used, because a motor that is off coasts: " +
+                                 with + ". Keep every command above 0 in flight.");
   return *result;
 }
 

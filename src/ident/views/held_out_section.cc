@@ -48,10 +48,9 @@ std::string predicts_worse_text(const Validation& validation) {
   if (!validation.worse) return {};
   const HorizonErrors& shortest = validation.horizons.front();
   return fmt::format(
-      "flight that was not fitted is predicted worse by the refined constants than by those stated "
-      "(over {} s {} against {} standard deviations of noise, and no better over longer): the model "
-      "lacks something that moves this vehicle, and the constants may have taken its place (try ident "
-      "gap)",
+      "Held-out flight is predicted worse by the refined constants than by those stated: over {} s {} "
+      "against {} standard deviations of noise, and no better over longer. The constants may stand in for an "
+      "effect that the model lacks, so those far from their prior are not identifiable. Run `ident gap`.",
       format_number(shortest.horizon), format_number(shortest.refined.error, 3),
       format_number(shortest.stated.error, 3));
 }

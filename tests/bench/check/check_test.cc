@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "ident/bench/check/consistency.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/io/vehicle/vehicle_read.h"
+#include "ident/result/findings.h"
+#include "ident/views/findings_list.h"
 #include "support/run_program.h"
 
 namespace ident {
@@ -159,6 +163,23 @@ TEST(CheckProgram, EndsWithOneAndItsJsonOnAViolation) {
   EXPECT_EQ(good.status, 0) << good.err;
   EXPECT_TRUE(nlohmann::json::parse(good.out)["violations"].empty());
   EXPECT_EQ(run_ident({"check", "nowhere.yaml"}).status, 2);
+}
+
+TEST(CheckProgram, ListsEveryFindingAsTextAsJsonAndAsAPage) {
+  const ProgramRun text = run_ident({"check", "--list"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  for (const FindingInfo& finding : all_findings())
+    EXPECT_NE(text.out.find("\n" + std::string(finding.code) + " "), std::string::npos) << finding.code;
+  const auto json = nlohmann::json::parse(run_ident({"check", "--list", "--json"}).out);
+  ASSERT_EQ(json["findings"].size(), all_findings().size());
+  for (const char* key : {"code", "stage", "seen", "consequence", "advice"})
+    EXPECT_FALSE(json["findings"][0][key].get<std::string>().empty()) << key;
+  const std::string folder = test_folder();
+  EXPECT_EQ(run_ident({"check", "--list", "--markdown", "page.md"}, folder).status, 0);
+  std::ifstream page(folder + "/page.md");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(page), {}), findings_page());
+  EXPECT_EQ(run_ident({"check", "--list", published("phang_4sp.yaml")}).status, 2);
+  EXPECT_EQ(run_ident({"check", "--markdown", "page.md"}, folder).status, 2);
 }
 
 }  // namespace

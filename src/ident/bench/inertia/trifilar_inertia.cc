@@ -66,11 +66,13 @@ void without_noise(Result& result) {
 void add_warnings(Result& result, const PendulumModel& model, const LeastSquaresFit& fit) {
   if (!model.has_axis(PendulumAxis::platform))
     result.warn("no_platform",
-                "no rows of the empty platform: the vehicle is taken to hang on the wires alone");
+                "no rows of the empty platform: the vehicle is taken to hang on the wires alone. Time the "
+                "empty platform, unless there is none.");
   for (const PendulumAxis axis : kVehicleAxes)
     if (!model.has_axis(axis))
       result.warn("axis_missing",
-                  fmt::format("no rows for {}: it is not measured", PendulumModel::name(axis)));
+                  fmt::format("no rows for {}: it is not measured. Swing the vehicle about that axis.",
+                              PendulumModel::name(axis)));
   for (std::size_t i = 0; i < fit.rejected.size(); ++i)
     if (const PendulumRow& row = model.rows()[i]; fit.rejected[i])
       result.warn("outlier",

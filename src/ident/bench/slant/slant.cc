@@ -119,7 +119,9 @@ Result estimate_slant(const Vehicle& vehicle) {
   const double alpha = optimal_slant(kT.value, kQ.value, arm.value);
   const double std = optimal_slant_std(kT, kQ, arm, vehicle.correlation.of("kT", "kQ"));
   if (!std::isfinite(std))
-    result.warn("no_uncertainty", "kT or kQ has no standard deviation: neither has alpha_opt");
+    result.warn("no_uncertainty",
+                "kT or kQ has no standard deviation, so alpha_opt has none. State them in the vehicle file, "
+                "or run `ident thrust`.");
   result.parameters = {angle_parameter(alpha, std)};
   const double best = best_slant(quadrotor, arm.value);
   const SlantPrice price = slant_price(quadrotor, arm.value, alpha);

@@ -55,10 +55,12 @@ std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const 
   const bool commands = record.signals.commands;
   return Warning{
       commands ? "seldom_commands" : "seldom_speeds",
-      fmt::format("{}: {} come at {:.3g} Hz: what the motors {} in between was not logged; log {} at "
-                  "100 Hz or more{}",
+      fmt::format("{}: new {} come at {:.3g} Hz, and what the motors {} in between was not logged. {}. Log "
+                  "them at 100 Hz or more{}.",
                   most->file, commands ? "commands" : "rotor speeds", 1 / interval,
-                  commands ? "were told" : "did", commands ? "commands" : "them",
+                  commands ? "were told" : "did",
+                  commands ? "Motor constants are not identifiable, nor is inertia if commands change roughly"
+                           : "kQ, Jp and inertia are not identifiable",
                   logs.size() > 1 ? ", or give other logs alone" : "")};
 }
 

@@ -70,10 +70,11 @@ void warn_of_air(Result& result, const AirShare& air) {
   if (is_blown(0) || is_blown(1)) doubt_all(result, {"omega_m", "zeta_m", "dead_time", "kT"}, kWhy);
   result.warn(
       "air_turns",
-      fmt::format("about {} gusts turn this vehicle about as much as its rotors do (ratios in brackets), "
-                  "as quickly as its controller answers: what that does passes for the vehicle; fly "
-                  "in calm air, with doublets or a multisine about every axis",
-                  fmt::join(found, ", ")));
+      fmt::format(
+          "About {} short gusts turn the vehicle about as much as its rotors do (ratio in brackets). The "
+          "controller's answer to them passes for dynamics of the vehicle, so inertia, motors and kT are not "
+          "identifiable. Fly in calm air, with doublets or a multisine about every axis.",
+          fmt::join(found, ", ")));
 }
 
 }  // namespace ident

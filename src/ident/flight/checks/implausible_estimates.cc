@@ -32,9 +32,9 @@ void doubt_negative_dead_time(Result& result) {
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "dead_time"; });  // says less
   result.warn(
       "negative_dead_time",
-      "rotors seem to follow commands before these come, and of the motors' lag nothing certain is said: the "
-      "clocks of commands and sensors differ, the log shows commands in coarser steps than they were flown "
-      "in, or the model lacks something (try ident gap)");
+      "Rotors seem to follow their commands before these come (dead_time below 0 by over 2 standard "
+      "deviations). Motor lag and Jp are not identifiable. Clocks of commands and sensors differ, commands "
+      "were logged coarsely, or the model lacks an effect: log every command and run `ident gap`.");
 }
 
 void doubt_negative_rotor_inertia(Result& result) {
@@ -43,8 +43,9 @@ void doubt_negative_rotor_inertia(Result& result) {
   doubt_all(result, {"Jp", "Jzz", "kQ"}, "goes with a negative Jp, which no rotor has");
   std::erase_if(result.warnings, [](const Warning& w) { return w.code == "rotor_inertia"; });  // says less
   result.warn("negative_rotor_inertia",
-              "the vehicle turns with the rotors that speed up, not against them, and of yaw nothing certain "
-              "is said: a rotor's direction is stated wrong, or the model lacks something (try ident gap)");
+              "The vehicle turns with rotors that speed up, not against them (Jp below 0 by over 2 standard "
+              "deviations). Jp, Jzz and kQ are not identifiable. Check the spin of each rotor in the vehicle "
+              "file, then run `ident gap`.");
 }
 
 void doubt_motors_without_effect(Result& result) {
@@ -61,13 +62,12 @@ void doubt_motors_without_effect(Result& result) {
   if (!(found > kLong && found > kSlower * stated)) return;
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "km", "Jxx", "Jyy", "Jzz"},
             "motors as fitted hardly follow their commands");
-  result.warn(
-      "motors_without_effect",
-      fmt::format("these logs fit best where rotors follow their commands after {} s{}, and "
-                  "so hardly at all: the commands are not those of this vehicle or of this flight, or "
-                  "the model lacks something larger (try ident gap)",
-                  format_number(found, 2),
-                  stated > 0 ? fmt::format(", stated is {} s", format_number(stated, 2)) : ""));
+  result.warn("motors_without_effect",
+              fmt::format("The fit gives motors a lag of {} s{}: they hardly follow their commands. Motor "
+                          "constants, km and inertia are not identifiable. Check that the commands belong to "
+                          "this vehicle and flight, then run `ident gap`.",
+                          format_number(found, 2),
+                          stated > 0 ? fmt::format(" (stated: {} s)", format_number(stated, 2)) : ""));
 }
 
 void doubt_coarse_commands(Result& result) {

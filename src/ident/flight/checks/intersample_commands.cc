@@ -134,15 +134,14 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
   const bool inertia = input_interval(record, logs) > kSlowCommands;
   if (inertia) doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
-  result.warn(
-      "commands_between_rows",
-      fmt::format("{}; nothing is known of the motors{}; log each command that is sent",
-                  held.refuted()
-                      ? "the vehicle does not fly as commands that hold from row to row would make it: "
-                        "the controller goes on in between, or times of rows are not those of the commands"
-                      : "commands were logged more seldom than the rates that a controller answers to, "
-                        "and the flight does not show that they held in between",
-                  inertia ? " and of moments of inertia" : ""));
+  result.warn("commands_between_rows",
+              fmt::format("{}. Motor constants{} are not identifiable. Log each command that is sent.",
+                          held.refuted()
+                              ? "The flight contradicts commands that hold from row to row: the controller "
+                                "goes on in between, or the times of the rows are not those of the commands"
+                              : "Commands were logged at a lower rate than the body rates, and the flight "
+                                "does not show that they held in between",
+                          inertia ? " and moments of inertia" : ""));
 }
 
 }  // namespace ident

@@ -36,13 +36,18 @@ void test_excitation(const RotorAgreement& rotors, std::vector<Warning>& finding
   if (still.size() == 3 && rotors.thrust_variation < kSteadyThrust)
     findings.push_back(
         {"hover_only",
-         "rates and commands vary so little that neither inertia nor motor constants can be told: "
-         "fly doublets or a multisine about every axis, 20 s or more"});
+         fmt::format(
+             "The rates do not follow the commands about any axis, and thrust varies by less than "
+             "{:.0f} %. Inertia and motor constants stay as stated. Fly doublets or a multisine about "
+             "every axis, 20 s or more.",
+             100 * kSteadyThrust)});
   else if (!still.empty())
-    findings.push_back({"no_excitation",
-                        fmt::format("{}: the commands hardly turn the vehicle about it: its inertia and what "
-                                    "acts about it cannot be told; add doublets or a multisine there",
-                                    fmt::join(still, ", "))});
+    findings.push_back(
+        {"no_excitation",
+         fmt::format(
+             "{}: the commands hardly turn the vehicle about this axis (below {:.0f} standard errors). "
+             "Its moment of inertia is poorly known. Add doublets or a multisine about it.",
+             fmt::join(still, ", "), kToTell)});
 }
 
 /// Thrust of the rotors as stated over the weight, in the mean of the flight; by measured speeds where these
@@ -121,10 +126,10 @@ void test_commands(std::span<const FlightLog> logs, std::vector<Warning>& findin
   for (const FlightLog& log : logs) step = std::max(step, step_of_commands(log));
   if (step < kCoarse) return;
   findings.push_back(
-      {"coarse_commands",
-       fmt::format("commands were logged in steps of {:.2g} % of their range: if the motors got finer ones, "
-                   "their lag comes out wrong by more than its interval says; log them as they are sent",
-                   100 * step)});
+      {"coarse_commands", fmt::format("Commands were logged in steps of {:.2g} % of their range. If the "
+                                      "motors got finer ones, their lag is wrong by more than its interval, "
+                                      "so it does not count as known. Log commands as they are sent.",
+                                      100 * step)});
 }
 
 void test_health(const FlightRecord& record, std::span<const FlightLog> logs,
@@ -132,19 +137,18 @@ void test_health(const FlightRecord& record, std::span<const FlightLog> logs,
   if (const double share = saturated_share(record, logs); share > kSaturatedShare)
     findings.push_back(
         {"saturated_commands",
-         fmt::format(
-             "in {:.0f} % of the rows a command stands at its limit: what the motors get there may be "
-             "less than what was logged; fly more gently or lighter",
-             100 * share)});
+         fmt::format("A command stands at its limit in {:.0f} % of the rows. The motors may get less there "
+                     "than was logged, which biases thrust and motor constants. Fly more gently, or lighter.",
+                     100 * share)});
   if (record.duration < kShortest)
     findings.push_back(
-        {"short_log", fmt::format("{:.1f} s in flight: too short for good intervals; 40 s or more "
-                                  "are worth having",
-                                  record.duration)});
+        {"short_log",
+         fmt::format("The flight lasts {:.1f} s, which is too short for narrow intervals. Fly 40 s or more.",
+                     record.duration)});
   if (record.interval > kSlowest)
     findings.push_back(
-        {"low_rate", fmt::format("rows come at {:.3g} Hz: motor lag and fast turns pass between "
-                                 "them; log at 100 Hz or more",
+        {"low_rate", fmt::format("Rows come at {:.3g} Hz. Motor lag and fast turns pass between them, so "
+                                 "motor constants are not identifiable. Log at 100 Hz or more.",
                                  1 / record.interval)});
   if (const auto seldom = seldom_input(record, logs)) findings.push_back(*seldom);
 }

@@ -71,11 +71,10 @@ std::vector<Warning> logs_agree(const FlightRecord& record, std::span<const Flig
     odd = log, least = rest.from_stated, moved = rest.moved;
   }
   if (!beyond_doubt) return {};
-  return {
-      {"logs_disagree",
-       fmt::format("{} does not fly like the others: without it {} would differ by a fifth or more; it is "
-                   "of another vehicle, or the vehicle was changed in between. Refine it by itself",
-                   logs[static_cast<std::size_t>(odd)].file, fmt::join(moved, ", "))}};
+  return {{"logs_disagree",
+           fmt::format("{} does not fly like the others: without it {} would differ by 20 % or more. It is "
+                       "of another vehicle, or the vehicle was changed in between. Refine it by itself",
+                       logs[static_cast<std::size_t>(odd)].file, fmt::join(moved, ", "))}};
 }
 
 }  // namespace ident

@@ -141,12 +141,11 @@ void warn_of_steady_turn(Result& result, const SteadyTurn& turn, const FlightRec
            ", ");
   const std::string where =
       turn.log ? logs[static_cast<std::size_t>(*turn.log)].file : std::string("these logs");
-  result.warn(
-      "steady_moment",
-      fmt::format("in the mean of {} the vehicle is turned by what the model does not have, {}, and no "
-                  "gust lasts as long: {}, or with rotors unlike each other. It counts as gusts here, "
-                  "and constants may be bent for its cause (try ident gap)",
-                  where, moments, cause));
+  result.warn("steady_moment",
+              fmt::format("In the mean of {} a moment acts that the model lacks: {}; no gust lasts that "
+                          "long. It is {}, or with rotors that differ. It counts as gusts, and its cause may "
+                          "bias constants. Balance the vehicle, compare its rotors, and run `ident gap`.",
+                          where, moments, cause));
 }
 
 }  // namespace ident

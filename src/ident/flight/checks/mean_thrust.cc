@@ -17,9 +17,9 @@ void warn_of_steady_push(Result& result, const SteadyPush& push, std::span<const
   result.warn(
       "thrust_level",
       fmt::format(
-          "in the mean {} the rotors as fitted lift {:.0f} % {} than the vehicle felt, and no gust lasts as "
-          "long: thrust does not go with the square of the command's speed (another curve, a battery that "
-          "sags), a stated constant is wrong, or the model lacks an effect (try ident gap)",
+          "In the mean {} the fitted rotors lift {:.0f} % {} than the vehicle felt, and no gust lasts that "
+          "long. Constants of thrust and inertia are not identifiable. The thrust curve, the battery or a "
+          "stated constant is wrong, or the model lacks an effect: weigh the vehicle and run `ident gap`.",
           where, 100 * std::abs(push.mean) / gravity, push.mean > 0 ? "more" : "less"));
   constexpr const char* kWhy = "thrust as fitted is not what the vehicle felt";
   doubt_all(result, {"m", "kT", "km", "Omega_0", "kQ", "Jp", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);

@@ -28,9 +28,9 @@ struct Row {
 Warning FeltJitter::warning(const std::string& consequence) const {
   return {
       "speeds_jitter",
-      fmt::format("rotor speeds jump from row to row as no command says, and the vehicle feels {:.0f} % of "
-                  "that: {}",
-                  100 * std::min(share, 1.0), consequence)};
+      fmt::format(
+          "Rotor speeds jump from row to row without a command, and the vehicle feels {:.0f} % of that: {}",
+          100 * std::min(share, 1.0), consequence)};
 }
 
 bool may_do_without_commands(std::span<const FlightLog> logs, std::span<const std::string> free) {

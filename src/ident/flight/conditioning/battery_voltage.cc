@@ -24,11 +24,10 @@ std::optional<Warning> battery_not_modelled(const Vehicle& vehicle, std::span<co
   if (!(high - low > kLittle * high)) return {};
   return Warning{
       "battery_not_modelled",
-      fmt::format(
-          "the battery's voltage goes from {} to {} V, and the model has motors that do not feel it: km, and "
-          "what depends on it, is some mean and may bend others. State battery_sag.n in the vehicle "
-          "file, 1 where speeds go with the voltage, and battery_voltage, at which km holds",
-          format_number(high, 3), format_number(low, 3))};
+      fmt::format("The battery falls from {} to {} V, and the model has no battery_sag. km is a mean over "
+                  "the flight, which may bias what depends on it. State battery_sag.n in the vehicle file (1 "
+                  "if speeds follow the voltage), and battery_voltage, at which km holds.",
+                  format_number(high, 3), format_number(low, 3))};
 }
 
 }  // namespace ident

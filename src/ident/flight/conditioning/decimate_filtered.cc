@@ -114,7 +114,9 @@ std::vector<FlightLog> whitened_sensors(std::span<const FlightLog> logs, std::ve
           for (std::vector<double>& c : out[n].*one.sensor) c[one.rows[k]] = kNaN;
       warnings.push_back(
           {"filtered_noise",
-           fmt::format("{}: {}: {}: one in {} counts, {:.0f} a second", logs[n].file, one.name,
+           fmt::format("{}: {}: {}. One sample in {} is used, {:.0f} a second, so that intervals stay right. "
+                       "Log the sensors before the filters.",
+                       logs[n].file, one.name,
                        one.own == one.stride
                            ? "neighbouring samples share their noise, as after a filter"
                            : "as few samples as of the other sensor, whose neighbours share their noise",

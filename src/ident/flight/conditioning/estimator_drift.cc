@@ -259,14 +259,15 @@ void add_slow_errors(FlightRecord& record) {
     told += fmt::format("{}{} by {:.2g} {}", told.empty() ? "" : ", ", kWhat[g], grows, kUnit[g]);
   }
   if (told.empty()) return;
-  const char* const so = seen.of_estimator
-                             ? "an estimator shows them, which within a second tells no more than they do"
-                             : "slow errors, as an estimator has them, are estimated with the flight";
+  const char* const so =
+      seen.of_estimator
+          ? "They come from an estimator, so within a second they count for no more than those sensors."
+          : "A slow error of each is estimated with the flight.";
   record.warnings.push_back(
       {"slow_errors",
-       fmt::format("what the log shows strays from the integral of its rates, forces or velocities, "
-                   "in a second {}: {}",
-                   told, so)});
+       fmt::format(
+           "Logged states drift from the integral of the rates, forces or velocities, in a second {}. {}",
+           told, so)});
 }
 
 }  // namespace ident

@@ -165,12 +165,16 @@ std::string told(const Vibration& vibration) {
   if (vibration.force > 0) felt.push_back(amount(vibration.force, "the specific force", "m/s^2"));
   std::string lost;
   if (constexpr double kWorthTelling = 0.005; vibration.left_out > kWorthTelling)
-    lost = fmt::format("; where it passes for motion, in {:.0f} % of the samples, nothing counts",
+    lost = fmt::format(" Where a tone passes for motion, in {:.0f} % of the samples, the sample is not used.",
                        100 * std::max(vibration.left_out, 0.01));
-  if (vibration.passed_on) lost += "; the controller passes it on to the motors, of which nothing is known";
-  return fmt::format(
-      "the rotors' turns show in {}, which is taken out{}; {}", fmt::join(felt, " and "), lost,
-      vibration.unbalanced() ? vibration.what_is_unbalanced() : "log what went through a filter");
+  if (vibration.passed_on)
+    lost +=
+        " The controller passes them on to the motors, so omega_m, zeta_m, dead_time and Jp are not "
+        "identifiable.";
+  return fmt::format("Tones of the turning rotors move {}. They are taken out.{} {}.",
+                     fmt::join(felt, " and "), lost,
+                     vibration.unbalanced() ? "Balance the propellers: " + vibration.what_is_unbalanced()
+                                            : "Mount the sensor softer, or log it behind a filter");
 }
 
 // Amplitude of the rotor in question over that of the usual one of the others, as far as these are told.

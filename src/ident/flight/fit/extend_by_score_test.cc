@@ -175,9 +175,11 @@ class WatchedFit {
       return;
     }
     std::erase(watched_, name);
-    result_.warn("contradicted", "the logs contradict " + name +
-                                     " as it is where nobody states it, but nothing flies with another one: "
-                                     "of what depends on it nothing certain is said");
+    result_.warn(
+        "contradicted",
+        "The logs contradict the default of " + name +
+            ", which is not stated, and no flight can be simulated with another value. Constants that "
+            "depend on it are not identifiable. State it from a bench.");
   }
 
   // A push that lasts for the whole flight counts as gusts once the noise is that strong. So start anew: that

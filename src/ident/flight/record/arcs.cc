@@ -61,10 +61,12 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
       if (log.t[i] < quiet_until) fly[i] = false, ++grounded;
   }
   if (grounded > 0 && grounded < log.rows()) {
-    warnings.push_back({"ground_excluded",
-                        fmt::format("{}: {:.1f} s with rotors at rest or just started are not used", log.file,
-                                    static_cast<double>(grounded) * (log.t.back() - log.t.front()) /
-                                        static_cast<double>(log.rows()))});
+    warnings.push_back(
+        {"ground_excluded", fmt::format("{}: {:.1f} s with rotors at rest or just started are not used. "
+                                        "State windows in a map file to choose the rows yourself.",
+                                        log.file,
+                                        static_cast<double>(grounded) * (log.t.back() - log.t.front()) /
+                                            static_cast<double>(log.rows()))});
   }
   return fly;
 }
@@ -126,9 +128,9 @@ Pieces whole_pieces(const FlightLog& log, double history, double longest_gap,
       if (log.t[i] >= from && log.t[i] < until) fly[i] = false;
   Pieces loose = pieces(log, fly, longest_gap, history);
   if (loose.empty()) {
-    warnings.push_back({"log_not_used", log.file +
-                                            ": no uninterrupted part of 0.3 s or more with turning rotors: "
-                                            "nothing of it is used"});
+    warnings.push_back(
+        {"log_not_used", log.file + ": no uninterrupted part of 0.3 s or more with turning rotors, so "
+                                    "nothing of it is used. Check commands, windows and gaps in the time."});
     return loose;
   }
   if (!log.has_commands()) return loose;
@@ -138,10 +140,10 @@ Pieces whole_pieces(const FlightLog& log, double history, double longest_gap,
   if (seconds_of(log, strict) > kEnoughLeft * seconds_of(log, loose)) return strict;
   warnings.push_back(
       {"holes_bridged",
-       fmt::format("{}: rows are missing so often that little would be left between the holes: "
-                   "commands are held over those of up to {:.2g} s, and what the rotors did "
-                   "there is not known",
-                   log.file, longest_gap)});
+       fmt::format(
+           "{}: rows are missing so often that under 30 % of the flight lies between the holes. Commands are "
+           "held over holes of up to {:.2g} s, which may bias motors and inertia. Log without dropouts.",
+           log.file, longest_gap)});
   return loose;
 }
 

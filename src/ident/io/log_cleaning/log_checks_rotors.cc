@@ -86,9 +86,8 @@ void check_commands(FlightLog& log) {
            "{}: the command of rotor {} never changes, and its speed does: is the column the right "
            "one? {}",
            log.file, fmt::join(dead, ", "),
-           speeds
-               ? "The commands are left out, the speeds serve as input; of the motors this log says nothing"
-               : "Nothing that depends on commands can be trusted")});
+           speeds ? "The commands are left out, the speeds are the input, and the motors are not estimated"
+                  : "Nothing that depends on commands can be trusted")});
   if (speeds) log.delta.clear();
 }
 

@@ -112,9 +112,8 @@ void split_at_jumps(FlightLog& log, Components sensor, const std::string& name) 
   std::ranges::sort(log.breaks);
   if (!lasting.empty())
     log.warnings.push_back(
-        {"jumps", fmt::format("{}: {}: elsewhere from one sample to the next, as no vehicle moves: an "
-                              "estimator that was reset? The flight is split there ({} in all, first at t = "
-                              "{:.6g} s)",
+        {"jumps", fmt::format("{}: {}: steps from one sample to the next as no vehicle moves. The flight is "
+                              "split there ({} in all, first at t = {:.6g} s). Was the estimator reset?",
                               log.file, name, lasting.size(), log.t[rows[lasting[0].after]])});
 }
 

@@ -55,9 +55,8 @@ bool is_stated(const YamlValue& where, const std::string& name, const std::strin
     where.fail("'" + name + "' is no parameter of the model" + did_you_mean(name, file_parameter_names()));
   if (known_with_deviation(vehicle, inside)) return true;
   const std::string message = fmt::format(
-      "{}: correlations: this file states no standard deviation of {}, so what it is correlated with is "
-      "taken "
-      "by itself",
+      "{}: correlations: this file states no standard deviation of {}, so its correlations are ignored. "
+      "State the standard deviation too.",
       vehicle.file, name);
   if (std::ranges::find(vehicle.warnings, message, &Warning::message) == vehicle.warnings.end())
     vehicle.warnings.push_back({"correlation_left_out", message});
