@@ -47,7 +47,11 @@ class Matcher {
       used_.insert(*at);
       const double unit =
           column_factor(path_, csv_.header_line(), csv_.header()[*at], signal.dimension, spelling.unit);
-      return ChosenColumn{.name = signal.name, .index = *at, .unit = unit, .is_time = signal.name == "t"};
+      return ChosenColumn{.name = signal.name,
+                          .index = *at,
+                          .unit = unit,
+                          .is_time = signal.name == "t",
+                          .is_fraction = signal.dimension == Dimension::fraction};
     }
     return std::nullopt;
   }
