@@ -19,8 +19,7 @@ constexpr double kEvident =
 constexpr std::size_t kMostPlateaus = 80, kFewestRowsOfAPlateau = 10;
 constexpr double kFarOff = 4.0;     // standard deviations
 constexpr double kAnyEdge = 0.1;    // s, scatter of single dead times before anything is known of them
-constexpr int kMostRounds = 4;      // of a fit and the scales of its rows
-constexpr double kSameShare = 0.1;  // relative change of a transient's error that ends them
+constexpr double kSameShare = 0.2;  // relative change of a transient's error that is not worth another fit
 constexpr int kRowsInARow = 4;      // outliers come one by one
 
 std::size_t count_levels(const std::vector<StepRecord>& records) {
@@ -89,7 +88,8 @@ std::vector<MotorShape> starting_shapes(const std::vector<StepRecord>& records, 
 }
 
 const LeastSquaresOptions kFull{.search_widely = false},
-    kQuick{.max_colour_order = 0, .search_widely = false};  // noise taken as white
+    kQuick{.max_colour_order = 0, .search_widely = false},  // noise taken as white
+    kPlain{.robust = false, .max_colour_order = 0, .search_widely = false};
 
 /// What fits of one set of records share.
 struct Fitting {
@@ -112,18 +112,28 @@ struct Fitting {
     return transient_error(residuals, ways);
   }
 
-  /// Fits and scales of rows in turn, until the error of transients is the one of the fit's own residuals.
-  MotorFit scaled(const MotorFreedom& freedom, std::vector<MotorShape> shapes, std::vector<double> shifts,
-                  TransientError error, const LeastSquaresOptions& options) const {
-    for (int round = 1;; ++round) {
-      MotorFit motor = fitted(freedom, shapes, shifts, row_scales(error, ways), options);
-      const double before = error.share;
-      if (!ways.empty()) error = error_of(motor);
-      motor.transients = error;
-      if (round == kMostRounds || std::fabs(error.share - before) <= kSameShare * before) return motor;
-      shapes = {motor.shape};
-      shifts = motor.shifts;
-    }
+  /// How far transients are off the best that plain least squares can do: with noise of the plateaus as scale
+  /// they would be outliers, and then nothing would hold them. Also a start.
+  MotorFit plain(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                 const std::vector<double>& shifts) const {
+    MotorFit motor = fitted(freedom, shapes, shifts, {}, kPlain);
+    motor.transients = error_of(motor);
+    return motor;
+  }
+
+  /// The fit with the scales of its rows. What lies off because of outliers in the plain fit comes down.
+  MotorFit scaled(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                  const std::vector<double>& shifts) const {
+    if (ways.empty()) return fitted(freedom, shapes, shifts, {}, kFull);
+    const MotorFit start = plain(freedom, shapes, shifts);
+    TransientError error = start.transients;
+    MotorFit motor = fitted(freedom, {start.shape}, start.shifts, row_scales(error, ways), kFull);
+    motor.transients = error;
+    const TransientError own = error_of(motor);
+    if (error.share == 0.0 || own.share > (1.0 - kSameShare) * error.share) return motor;
+    motor = fitted(freedom, {motor.shape}, motor.shifts, row_scales(own, ways), kFull);
+    motor.transients = own;
+    return motor;
   }
 };
 
@@ -147,21 +157,18 @@ double edge_scatter(const MotorFit& motor) {
   return squares > 2.0 * from_noise ? std::sqrt((squares - from_noise) / freedom) : 0.0;
 }
 
-/// The fit with all that may be free: whether edges have dead times of their own, how far transients are off.
+/// The fit with all that may be free, and whether edges have dead times of their own.
 MotorFit richest_fit(const Fitting& fitting, MotorFreedom freedom, const std::vector<MotorShape>& shapes) {
-  if (fitting.ways.empty()) return fitting.fitted(freedom, shapes, {}, {}, kFull);
-  const Eigen::VectorXd first = MotorProblem(fitting.records, freedom).start(shapes.front()).residuals;
-  const TransientError error =
-      transient_error({first.data(), static_cast<std::size_t>(first.size())}, fitting.ways);
+  MotorFit best = fitting.scaled(freedom, shapes, {});
+  if (fitting.ways.empty()) return best;
   MotorFreedom any = freedom;
   any.edge_scatter = kAnyEdge;
-  const MotorFit look = fitting.scaled(any, shapes, {}, error, kQuick);
   std::vector<MotorShape> near = shapes;
-  near.insert(near.begin(), look.shape);
-  MotorFit best = fitting.scaled(freedom, near, {}, look.transients, kFull);
+  near.insert(near.begin(), best.shape);
+  const MotorFit look = fitting.plain(any, near, {});
   freedom.edge_scatter = edge_scatter(look);
   if (freedom.edge_scatter == 0.0) return best;
-  MotorFit apart = fitting.scaled(freedom, {look.shape}, look.shifts, look.transients, kFull);
+  MotorFit apart = fitting.scaled(freedom, {look.shape}, look.shifts);
   return apart.criterion + kEvident < best.criterion ? apart : best;
 }
 
@@ -203,7 +210,7 @@ MotorFit fit_motor(const std::vector<StepRecord>& records, const std::optional<M
     MotorShape shape = best.shape;  // between up and down
     shape.omega_m *= std::sqrt(shape.down_ratio);
     shape.down_ratio = 1.0;
-    best = fitting.scaled(freedom, {shape, best.shape}, best.shifts, best.transients, kFull);
+    best = fitting.scaled(freedom, {shape}, best.shifts);
   }
   return best.shape.dead_time < 0.0 ? without_dead_time(fitting, best) : best;
 }
@@ -222,7 +229,7 @@ std::optional<MotorFit> fit_motor_directions(const std::vector<StepRecord>& reco
                              .directions = SpinDirections::apart,
                              .dead_time = alike.negative_dead_time ? DeadTime::zero : DeadTime::free,
                              .edge_scatter = alike.edge_scatter};
-  return fitting.scaled(freedom, {alike.shape}, alike.shifts, alike.transients, kFull);
+  return fitting.scaled(freedom, {alike.shape}, alike.shifts);
 }
 
 bool contradicts(const StepRecord& record, const MotorFit& motor) {

@@ -3,9 +3,11 @@
 // No motor obeys its equation to the noise of a good speed sensor. With noise of the plateaus alone as scale,
 // whole transients would be outliers. The scale of a row is therefore
 //
-//     sigma_i^2 = sigma^2 + (share d_i)^2                                                                 (1)
+//     sigma_i^2 = sigma^2 + (share D_i)^2 ,   D_i = sqrt(d_i step)                                        (1)
 //
-// with d_i what the speed still has to go to the level of its plateau.
+// with d_i what the speed still has to go to the level of its plateau, beyond noise, and `step` the most that
+// it had to go there. In D = d the last rows of an answer would count as much as all before; in D = step they
+// would have to be exact.
 #pragma once
 
 #include <span>
@@ -15,7 +17,7 @@
 
 namespace ident {
 
-/// d of (1) for the rows of all records, one after the other.
+/// D of (1) for the rows of all records, one after the other.
 std::vector<double> ways_to_go(const std::vector<StepRecord>& records);
 
 struct TransientError {

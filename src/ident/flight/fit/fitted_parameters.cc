@@ -16,7 +16,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kMoved = 1e-6;  // of what was known
+constexpr double kMoved = 1e-6;       // of what was known
+constexpr double kContradicts = 3.0;  // standard deviations of a pull: p = 0.003
 constexpr double kHeard = 0.05;  // share of a statement's information from which on a flight has a say in it
 constexpr double kTogether = 0.1;  // correlation of what is worth naming together
 
@@ -80,7 +81,10 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
                                   : p.std < std::abs(p.value) && c.name.find('.') == std::string::npos;
     p.joint = !p.identifiable && told;
     if (!p.identifiable)
-      p.note = c.prior_std ? "these logs say little beyond what was known" : "these logs do not determine it";
+      p.note = !c.prior_std ? "these logs do not determine it"
+               : std::abs(*p.pull) > kContradicts
+                   ? "these logs contradict what was known, and do not determine it"
+                   : "these logs say little beyond what was known";
     out.push_back(p);
   }
   return out;

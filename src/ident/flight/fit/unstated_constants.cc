@@ -43,10 +43,11 @@ void watch(const std::vector<std::string>& names, std::vector<FreeConstant>& con
 
 void warn_of_found(const std::vector<std::string>& found, Result& result) {
   if (is_in(found, kOffset))
-    result.warn("command_offset",
-                "the rotors' speed is not proportional to the command, or the mass or kT as stated is wrong: "
-                "Omega_0, their speed at command 0 as the line through the flown commands gives it, is "
-                "estimated too");
+    result.warn(
+        "command_offset",
+        "Omega_0 is estimated too, the rotors' speed at command 0 as the line through the flown commands "
+        "gives it: their speed is not proportional to the command, or the mass or kT as stated is "
+        "wrong");
   if (is_in(found, kDeadTime))
     result.warn("dead_time",
                 "rotors follow their commands later or earlier than motors without a dead time would, and "

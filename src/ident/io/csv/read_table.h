@@ -53,9 +53,16 @@ TableSchema motor_schema();
 /// std.
 TableSchema pendulum_schema();
 
+struct TableMap;
+
+struct TableOptions {
+  std::string names;              ///< the header of a file that has none, with commas
+  const TableMap* map = nullptr;  ///< columns under other names
+};
+
 /// Reads a table. Columns that the file does not have, or that are empty throughout, are absent from the
 /// result. Throws InputError (not readable, a required column missing, an implausible unit) or DataError (a
 /// required column without any usable value).
-NumberTable read_table(const std::string& path, const TableSchema& schema);
+NumberTable read_table(const std::string& path, const TableSchema& schema, const TableOptions& options = {});
 
 }  // namespace ident
