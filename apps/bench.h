@@ -15,6 +15,8 @@ namespace ident::app {
 struct BenchOptions {
   std::vector<std::string> files;
   std::string vehicle;
+  std::string map;    ///< file
+  std::string names;  ///< header of files that have none
 };
 
 /// Adds them; without a file the campaign's are taken.

@@ -12,6 +12,7 @@
 
 #include "campaign_priors.h"
 #include "ident/core/parallel.h"
+#include "ident/flight/checks/never_flew.h"
 #include "ident/io/file/sha256.h"
 #include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
@@ -130,6 +131,22 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
     for (const std::string& notice : input.logs.back().notices) context.notices.push_back(notice);
   }
   return input;
+}
+
+void leave_out_unflown(FlightInput& input, Context& context) {
+  std::vector<FlightLog> flown;
+  std::string first;
+  for (FlightLog& log : input.logs) {
+    const std::string why = never_flew(log, input.vehicle);
+    if (why.empty()) {
+      flown.push_back(std::move(log));
+      continue;
+    }
+    if (first.empty()) first = why;
+    context.notices.push_back(why + "; it is left out");
+  }
+  if (flown.empty()) throw DataError(first);
+  input.logs = std::move(flown);
 }
 
 }  // namespace ident::app

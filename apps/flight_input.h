@@ -35,4 +35,7 @@ struct FlightInput {
 /// there is none.
 FlightInput flight_input(const FlightOptions& options, Model model, Context& context);
 
+/// Takes out logs in which nothing flew, each with a notice. Throws DataError where none is left.
+void leave_out_unflown(FlightInput& input, Context& context);
+
 }  // namespace ident::app

@@ -40,6 +40,7 @@ Outcome run(const Options& options, Context& context) {
   const Model model = options.refine ? Model::before_these_logs : Model::as_stored;
   FlightInput input = flight_input(options.flight, model, context);
   if (!options.refine) return verified(input.vehicle, input, options.horizon);
+  leave_out_unflown(input, context);
   Progress progress("refining");
   RefineOptions refine;
   refine.free = options.free;

@@ -15,7 +15,8 @@ struct Options {
 };
 
 Outcome run(const Options& options, Context& context) {
-  const FlightInput input = flight_input(options.flight, Model::before_these_logs, context);
+  FlightInput input = flight_input(options.flight, Model::before_these_logs, context);
+  leave_out_unflown(input, context);
   Progress progress("diagnosing");
   GapOptions gap;
   gap.exclude = options.exclude;

@@ -178,6 +178,9 @@ class Fitter {
     whiten(problem_.series, noise_, rejected_, weighted);
     for (Eigen::Index i = 0; i < weighted.rows(); ++i)
       if (rejected_[static_cast<std::size_t>(i)]) weighted.row(i).setZero();
+    if (getenv("WTB")) { fprintf(stderr, "J finite %d weighted %d r %d x ", J.allFinite(), weighted.allFinite(), r.allFinite()); for (double v : x_) fprintf(stderr, "%g ", v); for (auto& g : noise_) fprintf(stderr, "| s %g o %ld ", g.sigma, (long)g.colour.order()); fprintf(stderr, " rej %ld\n", (long)std::ranges::count(rejected_, true)); }
+    if (!weighted.allFinite())
+      throw DataError("the fit ends where its equations have no finite derivative: the data do not fit the model");
     directions_ = determined_directions(weighted, options_.rank_tolerance);
     return {.J = J * directions_.determined, .r = std::move(r), .missing = rejected_};
   }
@@ -252,6 +255,7 @@ class Fitter {
     for (Eigen::Index i = 0; i < step.size(); ++i)
       if (problem_.unknowns[static_cast<std::size_t>(i)].coordinate == Coordinate::positive)
         step(i) = std::log(x_(i) / before(i));
+    if (directions_.determined.cols() == 0) return true;  // nothing that could move
     // Components along the determined directions.
     const Eigen::VectorXd along = directions_.determined.colPivHouseholderQr().solve(step);
     Eigen::MatrixXd change = rows.J * along;
@@ -279,6 +283,8 @@ class Fitter {
 }  // namespace
 
 LeastSquaresFit solve_least_squares(const LeastSquaresProblem& problem, const LeastSquaresOptions& options) {
+  if (problem.unknowns.empty() || problem.residuals == 0)
+    throw DataError("there is nothing to fit: no unknown or no measurement");
   const LeastSquaresProblem complete = completed(problem);
   return Fitter(complete, options).run();
 }

@@ -124,6 +124,8 @@ Eigen::MatrixXd covariance_over(const std::vector<NoiseDraw>& draws) {
 
 Directions determined_directions(const Eigen::MatrixXd& weighted_J, double rank_tolerance) {
   const Eigen::Index n = weighted_J.cols();
+  if (weighted_J.rows() == 0 || weighted_J.isZero(0.0))
+    return {Eigen::MatrixXd(n, 0), Eigen::MatrixXd::Identity(n, n)};
   Eigen::VectorXd length = weighted_J.colwise().norm();
   for (Eigen::Index i = 0; i < n; ++i)
     if (!(length(i) > 0.0)) length(i) = 1.0;

@@ -98,7 +98,9 @@ Result estimate_motor(const std::vector<NumberTable>& tables, const MotorOptions
   expect_answer(result, records);
   add_response(result, response);
   result.correlation = line.correlation;
-  judge_separability(result, response);
+  judge_separability(result, response, motor);
+  judge_dead_times(result, records, motor, response);
+  judge_transients(result, motor);
   judge_static_curve(result, records, line);
   compare_directions(result, records, motor);
   const Parameter& dead_time = *result.find("dead_time");

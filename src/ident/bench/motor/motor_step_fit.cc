@@ -1,11 +1,14 @@
 // The choice of the static curve, and where the search for the motor's shape starts.
 #include "ident/bench/motor/motor_step_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "ident/bench/motor/motor_step_problem.h"
+#include "ident/bench/motor/motor_step_scale.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
@@ -14,8 +17,10 @@ namespace {
 constexpr double kEvident =
     12.0;  // less of BIC that a richer static curve has to earn: four standard deviations
 constexpr std::size_t kMostPlateaus = 80, kFewestRowsOfAPlateau = 10;
-constexpr double kFarOff = 4.0;  // standard deviations
-constexpr int kRowsInARow = 4;   // outliers come one by one
+constexpr double kFarOff = 4.0;     // standard deviations
+constexpr double kAnyEdge = 0.1;    // s, scatter of single dead times before anything is known of them
+constexpr double kSameShare = 0.2;  // relative change of a transient's error that is not worth another fit
+constexpr int kRowsInARow = 4;      // outliers come one by one
 
 std::size_t count_levels(const std::vector<StepRecord>& records) {
   std::set<double> levels;
@@ -44,11 +49,11 @@ std::vector<StaticCurve> possible_curves(const std::vector<StepRecord>& records)
 
 /// The most promising shapes of a coarse grid, best first.
 std::vector<MotorShape> promising_shapes(const std::vector<StepRecord>& records, StaticCurve curve) {
-  const MotorProblem problem(records, curve, SpinDirections::alike);
+  const MotorProblem problem(records, {.curve = curve});
   std::vector<std::pair<double, MotorShape>> tried;
   for (const double omega_m : {6.0, 15.0, 35.0, 90.0, 300.0, 1200.0})
     for (const double zeta_m : {0.5, 1.0, 1.8})
-      for (const double dead_time : {0.0, 0.015, 0.04}) {
+      for (const double dead_time : {0.0, 0.015, 0.04, 0.1}) {
         const MotorShape shape{omega_m, zeta_m, dead_time};
         tried.emplace_back(problem.start(shape).residuals.squaredNorm(), shape);
       }
@@ -58,8 +63,9 @@ std::vector<MotorShape> promising_shapes(const std::vector<StepRecord>& records,
 
 /// Does a simpler curve, with the shape that a richer one gave, miss by so much that a fit of it is not
 /// needed?
-bool is_far_off(const std::vector<StepRecord>& records, StaticCurve curve, const MotorFit& richer) {
-  const Eigen::VectorXd r = MotorProblem(records, curve, SpinDirections::alike).start(richer.shape).residuals;
+bool is_far_off(const std::vector<StepRecord>& records, const MotorFreedom& freedom, const MotorFit& richer) {
+  const Eigen::VectorXd r =
+      MotorProblem(records, freedom, richer.scales).start(richer.shape, richer.shifts).residuals;
   return mad_scale({r.data(), static_cast<std::size_t>(r.size())}) > kFarOff * richer.fit.noise[0].sigma;
 }
 
@@ -81,23 +87,102 @@ std::vector<MotorShape> starting_shapes(const std::vector<StepRecord>& records, 
   return near ? std::vector{*near} : promising_shapes(records, curve);
 }
 
-MotorFit fitted(const std::vector<StepRecord>& records, StaticCurve curve,
-                const std::vector<MotorShape>& shapes,
-                const LeastSquaresOptions& options = {.search_widely = false}) {
-  const MotorProblem problem(records, curve, SpinDirections::alike);
-  std::vector<Eigen::VectorXd> starts;
-  for (const MotorShape& shape : shapes) starts.push_back(problem.start(shape).x);
-  return problem.solve(starts, options);
+const LeastSquaresOptions kFull{.search_widely = false},
+    kQuick{.max_colour_order = 0, .search_widely = false},  // noise taken as white
+    kPlain{.robust = false, .max_colour_order = 0, .search_widely = false};
+
+/// What fits of one set of records share.
+struct Fitting {
+  const std::vector<StepRecord>& records;
+  std::vector<double> ways;  ///< see motor_step_scale.h; empty without plateaus
+
+  MotorFit fitted(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                  const std::vector<double>& shifts, const std::vector<double>& scales,
+                  const LeastSquaresOptions& options) const {
+    const MotorProblem problem(records, freedom, scales);
+    std::vector<Eigen::VectorXd> starts;
+    for (const MotorShape& shape : shapes) starts.push_back(problem.start(shape, shifts).x);
+    return problem.solve(starts, options);
+  }
+
+  TransientError error_of(const MotorFit& motor) const {
+    std::vector<double> residuals;
+    for (const StepRecord& record : records)
+      for (const double Omega : record.Omega) residuals.push_back(motor.predicted[residuals.size()] - Omega);
+    return transient_error(residuals, ways);
+  }
+
+  /// How far transients are off the best that plain least squares can do: with noise of the plateaus as scale
+  /// they would be outliers, and then nothing would hold them. Also a start.
+  MotorFit plain(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                 const std::vector<double>& shifts) const {
+    MotorFit motor = fitted(freedom, shapes, shifts, {}, kPlain);
+    motor.transients = error_of(motor);
+    return motor;
+  }
+
+  /// The fit with the scales of its rows. What lies off because of outliers in the plain fit comes down.
+  MotorFit scaled(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                  const std::vector<double>& shifts) const {
+    if (ways.empty()) return fitted(freedom, shapes, shifts, {}, kFull);
+    const MotorFit start = plain(freedom, shapes, shifts);
+    TransientError error = start.transients;
+    MotorFit motor = fitted(freedom, {start.shape}, start.shifts, row_scales(error, ways), kFull);
+    motor.transients = error;
+    const TransientError own = error_of(motor);
+    if (error.share == 0.0 || own.share > (1.0 - kSameShare) * error.share) return motor;
+    motor = fitted(freedom, {motor.shape}, motor.shifts, row_scales(own, ways), kFull);
+    motor.transients = own;
+    return motor;
+  }
+};
+
+bool has_both_directions(const std::vector<StepRecord>& records) {
+  bool up = false, down = false;
+  for (const StepRecord& record : records)
+    for (std::size_t e = 1; e < record.edges.size(); ++e) (record.edges[e].down ? down : up) = true;
+  return up && down;
+}
+
+/// Standard deviation of the edges' own dead times beyond what noise makes of them; 0 where that is all.
+double edge_scatter(const MotorFit& motor) {
+  double squares = 0.0, from_noise = 0.0;
+  for (std::size_t e = 0; e < motor.shifts.size(); ++e) {
+    const double std = motor.fit.std(fmt::format("shift_{}", e));
+    if (!(std < 0.5 * kAnyEdge)) continue;  // a step in which nothing was seen
+    squares += motor.shifts[e] * motor.shifts[e];
+    from_noise += std * std;
+  }
+  const double freedom = std::max(1.0, static_cast<double>(motor.shifts.size()) - 1.0);
+  return squares > 2.0 * from_noise ? std::sqrt((squares - from_noise) / freedom) : 0.0;
+}
+
+/// The fit with all that may be free, and whether edges have dead times of their own.
+MotorFit richest_fit(const Fitting& fitting, MotorFreedom freedom, const std::vector<MotorShape>& shapes) {
+  MotorFit best = fitting.scaled(freedom, shapes, {});
+  if (fitting.ways.empty()) return best;
+  MotorFreedom any = freedom;
+  any.edge_scatter = kAnyEdge;
+  std::vector<MotorShape> near = shapes;
+  near.insert(near.begin(), best.shape);
+  const MotorFit look = fitting.plain(any, near, {});
+  freedom.edge_scatter = edge_scatter(look);
+  if (freedom.edge_scatter == 0.0) return best;
+  MotorFit apart = fitting.scaled(freedom, {look.shape}, look.shifts);
+  return apart.criterion + kEvident < best.criterion ? apart : best;
 }
 
 /// The fit again with no dead time; how well it is known is taken from the fit in which it was free.
-MotorFit without_dead_time(const std::vector<StepRecord>& records, const MotorFit& free) {
-  const MotorProblem problem(records, free.curve, SpinDirections::alike, DeadTime::zero);
-  MotorFit motor = problem.solve({problem.start({free.shape.omega_m, free.shape.zeta_m, 0.0}).x});
+MotorFit without_dead_time(const Fitting& fitting, const MotorFit& free) {
+  const MotorFreedom freedom{
+      .curve = free.curve, .dead_time = DeadTime::zero, .edge_scatter = free.edge_scatter};
+  const MotorShape shape{free.shape.omega_m, free.shape.zeta_m, 0.0};
+  MotorFit motor = fitting.fitted(freedom, {shape}, free.shifts, free.scales, kFull);
   motor.shape.dead_time = 0.0;
   motor.negative_dead_time = motor.dead_time = free.dead_time;
   motor.dead_time.value = 0.0;
   motor.dead_time.ci95 = {0.0, free.dead_time.ci95[1] - free.dead_time.value};
+  motor.transients = free.transients;
   return motor;
 }
 
@@ -105,31 +190,51 @@ MotorFit without_dead_time(const std::vector<StepRecord>& records, const MotorFi
 
 MotorFit fit_motor(const std::vector<StepRecord>& records, const std::optional<MotorShape>& near) {
   const std::vector<StaticCurve> curves = possible_curves(records);
-  MotorFit best = fitted(records, curves.back(), starting_shapes(records, curves.back(), near));
-  const MotorShape shape = best.shape;
+  Fitting fitting{.records = records};
+  if (has_plateaus(records)) fitting.ways = ways_to_go(records);
+  MotorFreedom freedom{.curve = curves.back()};
+  if (!fitting.ways.empty() && has_both_directions(records)) freedom.directions = SpinDirections::apart;
+  MotorFit best = richest_fit(fitting, freedom, starting_shapes(records, curves.back(), near));
+  freedom.edge_scatter = best.edge_scatter;
+  const MotorFit richest = best;
   for (std::size_t i = curves.size() - 1; i-- > 0;) {
-    if (is_far_off(records, curves[i], best)) continue;
-    MotorFit simpler = fitted(records, curves[i], {shape});
-    if (simpler.fit.bic <= best.fit.bic + kEvident) best = std::move(simpler);
+    freedom.curve = curves[i];
+    if (is_far_off(records, freedom, best)) continue;
+    MotorFit simpler = fitting.fitted(freedom, {richest.shape}, richest.shifts, richest.scales, kFull);
+    simpler.transients = richest.transients;
+    if (simpler.criterion <= best.criterion + kEvident) best = std::move(simpler);
   }
-  return best.shape.dead_time < 0.0 ? without_dead_time(records, best) : best;
+  if (freedom.directions == SpinDirections::apart) {
+    freedom.curve = best.curve;
+    freedom.directions = SpinDirections::alike;
+    MotorShape shape = best.shape;  // between up and down
+    shape.omega_m *= std::sqrt(shape.down_ratio);
+    shape.down_ratio = 1.0;
+    best = fitting.scaled(freedom, {shape}, best.shifts);
+  }
+  return best.shape.dead_time < 0.0 ? without_dead_time(fitting, best) : best;
 }
 
 MotorFit guess_motor(const std::vector<StepRecord>& records, const std::optional<MotorShape>& near) {
   const StaticCurve curve = possible_curves(records).back();
-  return fitted(records, curve, starting_shapes(records, curve, near),
-                {.max_colour_order = 0, .search_widely = false});
+  const Fitting fitting{.records = records};
+  return fitting.fitted({.curve = curve}, starting_shapes(records, curve, near), {}, {}, kQuick);
 }
 
-MotorFit fit_motor_directions(const std::vector<StepRecord>& records, const MotorFit& alike) {
-  const MotorProblem problem(records, alike.curve, SpinDirections::apart,
-                             alike.negative_dead_time ? DeadTime::zero : DeadTime::free);
-  return problem.solve({problem.start(alike.shape).x});
+std::optional<MotorFit> fit_motor_directions(const std::vector<StepRecord>& records, const MotorFit& alike) {
+  if (!has_both_directions(records)) return std::nullopt;
+  Fitting fitting{.records = records};
+  if (has_plateaus(records)) fitting.ways = ways_to_go(records);
+  const MotorFreedom freedom{.curve = alike.curve,
+                             .directions = SpinDirections::apart,
+                             .dead_time = alike.negative_dead_time ? DeadTime::zero : DeadTime::free,
+                             .edge_scatter = alike.edge_scatter};
+  return fitting.scaled(freedom, {alike.shape}, alike.shifts);
 }
 
 bool contradicts(const StepRecord& record, const MotorFit& motor) {
   const std::vector<StepRecord> alone = {record};
-  const MotorProblem problem(alone, StaticCurve::plateaus, SpinDirections::apart);
+  const MotorProblem problem(alone, {.curve = StaticCurve::plateaus, .directions = SpinDirections::apart});
   for (const double down_ratio : {1.0, 0.8, 0.6, 0.4, 1.3, 1.7}) {
     MotorShape shape = motor.shape;
     shape.down_ratio = down_ratio;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ident/bench/motor/motor_step_model.h"
+#include "ident/bench/motor/motor_step_scale.h"
 #include "ident/lsq/least_squares.h"
 
 namespace ident {
@@ -31,6 +32,11 @@ struct MotorFit {
   LeastSquaresFit fit;
   MotorShape shape;
   std::vector<double> predicted;  ///< at the rows of all records, one after the other
+  double edge_scatter = 0.0;      ///< s, of the dead times of single edges; 0: one for all
+  std::vector<double> shifts;     ///< of each edge after the first, s beyond the dead time
+  std::vector<double> scales;     ///< of the rows: 1 settled, more where a transient misses the equation
+  TransientError transients;      ///< of which they come
+  double criterion = 0.0;         ///< information criterion, for fits with whatever scales
 };
 
 /// The simplest static curve that the data do not contradict (information criterion), with the motor's shape.
@@ -40,8 +46,9 @@ MotorFit fit_motor(const std::vector<StepRecord>& records, const std::optional<M
 /// A quick look: the richest static curve, noise taken as white.
 MotorFit guess_motor(const std::vector<StepRecord>& records, const std::optional<MotorShape>& near = {});
 
-/// The same static curve, with omega_m of edges down free (unknown `down_ratio`).
-MotorFit fit_motor_directions(const std::vector<StepRecord>& records, const MotorFit& alike);
+/// The same static curve, with omega_m of edges down free (unknown `down_ratio`); nothing where all edges go
+/// one way.
+std::optional<MotorFit> fit_motor_directions(const std::vector<StepRecord>& records, const MotorFit& alike);
 
 /// Does a recording speak against the motor's shape, whatever its levels, its start and its way down?
 bool contradicts(const StepRecord& record, const MotorFit& motor);

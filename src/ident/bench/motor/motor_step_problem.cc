@@ -8,6 +8,7 @@
 
 #include "ident/lsq/least_squares_fit.h"
 #include "ident/lsq/least_squares_result.h"
+#include "ident/bench/motor/motor_step_edges.h"
 
 namespace ident {
 namespace {
@@ -39,39 +40,45 @@ Eigen::MatrixXd inputs_of(const StepRecord& record, StaticCurve curve, Eigen::In
 
 }  // namespace
 
-MotorProblem::MotorProblem(const std::vector<StepRecord>& records, StaticCurve curve,
-                           SpinDirections directions, DeadTime dead_time)
-    : records_(records),
-      curve_(curve),
-      directions_(directions),
-      dead_time_(dead_time),
-      coefficients_(count_coefficients(curve, records)) {
+MotorProblem::MotorProblem(const std::vector<StepRecord>& records, const MotorFreedom& freedom,
+                           std::vector<double> scales)
+    : records_(records), freedom_(freedom), coefficients_(count_coefficients(freedom.curve, records)) {
   Eigen::Index plateau = 0;
   for (const StepRecord& record : records) {
-    inputs_.push_back(inputs_of(record, curve, coefficients_));
-    first_coefficient_.push_back(curve == StaticCurve::plateaus ? plateau : 0);
+    inputs_.push_back(inputs_of(record, freedom.curve, coefficients_));
+    first_coefficient_.push_back(freedom.curve == StaticCurve::plateaus ? plateau : 0);
+    first_shift_.push_back(steps_);
     plateau += static_cast<Eigen::Index>(record.edges.size());
+    steps_ += static_cast<Eigen::Index>(record.edges.size()) - 1;
     samples_ += static_cast<Eigen::Index>(record.rows());
   }
   measured_.resize(samples_);
   Eigen::Index row = 0;
   for (const StepRecord& record : records)
     for (const double Omega : record.Omega) measured_(row++) = Omega;
+  weights_ = Eigen::VectorXd::Ones(samples_);
+  for (std::size_t i = 0; i < scales.size(); ++i) weights_(static_cast<Eigen::Index>(i)) = 1.0 / scales[i];
 }
 
 MotorShape MotorProblem::shape(const Eigen::VectorXd& x) const {
   const Eigen::Index s = shape_at();
-  return {x(s), x(s + 1), x(s + 2), directions_ == SpinDirections::apart ? x(s + 3) : 1.0};
+  return {x(s), x(s + 1), x(s + 2), freedom_.directions == SpinDirections::apart ? x(s + 3) : 1.0};
+}
+
+StepRecord MotorProblem::moved(const Eigen::VectorXd& x, std::size_t k) const {
+  if (shifts() == 0) return records_[k];
+  return with_shifted_edges(records_[k], x.segment(shift_at(k), inputs_[k].rows() - 1));
 }
 
 std::string MotorProblem::name(Eigen::Index i) const {
   static const std::vector<std::string> polynomial = {"km", "Omega_0", "k2", "k3"};
   static const std::vector<std::string> shape = {"omega_m", "zeta_m", "dead_time", "down_ratio"};
   if (i < shape_at())
-    return curve_ == StaticCurve::plateaus ? fmt::format("level_{}", i)
-                                           : polynomial[static_cast<std::size_t>(i)];
+    return freedom_.curve == StaticCurve::plateaus ? fmt::format("level_{}", i)
+                                                   : polynomial[static_cast<std::size_t>(i)];
   if (i < shape_at() + shape_size()) return shape[static_cast<std::size_t>(i - shape_at())];
-  return fmt::format("start_{}", i - shape_at() - shape_size());
+  if (i < shift_at(0)) return fmt::format("start_{}", i - shape_at() - shape_size());
+  return fmt::format("shift_{}", i - shift_at(0));
 }
 
 /// The derivatives need the model's speed only, one signal; a column for each coefficient is linear in them.
@@ -82,44 +89,52 @@ void MotorProblem::predict(const Eigen::VectorXd& x, Eigen::VectorXd& Omega, Eig
     const Eigen::Index inputs = inputs_[k].cols();
     const Eigen::VectorXd command = inputs_[k] * x.segment(first_coefficient_[k], inputs);
     const Eigen::Vector3d c(1.0, x(start_at(k)), x(start_at(k) + 1));
-    const MotorResponses sum = motor_responses(records_[k], command, shape(x), J ? Slopes::yes : Slopes::no);
+    const Eigen::Index steps = inputs_[k].rows() - 1;
+    const StepRecord record = moved(x, k);
+    const MotorResponses sum = motor_responses(record, command, shape(x), J ? Slopes::yes : Slopes::no);
     Omega.segment(row, n) = sum.value * c;  // (1)
     if (J) {
       for (Eigen::Index s = 0; s < shape_size(); ++s)
         J->block(row, shape_at() + s, n, 1) = sum.slope[static_cast<std::size_t>(s)] * c;
       J->block(row, start_at(k), n, 2) = sum.value.rightCols(2);
-      const MotorResponses each = motor_responses(records_[k], inputs_[k], shape(x), Slopes::no);
+      if (shifts() > 0)
+        J->block(row, shift_at(k), n, steps) = edge_time_slopes(record, command, c.tail<2>(), shape(x));
+      const MotorResponses each = motor_responses(record, inputs_[k], shape(x), Slopes::no);
       J->block(row, first_coefficient_[k], n, inputs) = each.value.leftCols(inputs);
     }
     row += n;
   }
 }
 
-MotorProblem::Start MotorProblem::start(const MotorShape& shape) const {
+MotorProblem::Start MotorProblem::start(const MotorShape& shape, const std::vector<double>& shifted) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns());
   const Eigen::Index s = shape_at();
   x.segment(s, 3) << shape.omega_m, shape.zeta_m, shape.dead_time;
-  if (directions_ == SpinDirections::apart) x(s + 3) = shape.down_ratio;
+  if (freedom_.directions == SpinDirections::apart) x(s + 3) = shape.down_ratio;
+  for (Eigen::Index e = 0; e < shifts() && !shifted.empty(); ++e)
+    x(shift_at(0) + e) = shifted[static_cast<std::size_t>(e)];
   Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(samples_, unknowns());
   Eigen::Index row = 0;
   for (std::size_t k = 0; k < records_.size(); ++k) {
     const auto n = static_cast<Eigen::Index>(records_[k].rows());
     const Eigen::Index inputs = inputs_[k].cols();
-    const MotorResponses r = motor_responses(records_[k], inputs_[k], shape, Slopes::no);
+    const MotorResponses r = motor_responses(moved(x, k), inputs_[k], shape, Slopes::no);
     linear.block(row, first_coefficient_[k], n, inputs) = r.value.leftCols(inputs);
     linear.block(row, start_at(k), n, 2) = r.value.rightCols(2);
     row += n;
   }
   // A start only: the columns of the shape are zero, and plateaus of few rows may be nearly so.
+  linear = weights_.asDiagonal() * linear;
+  const Eigen::VectorXd measured = weights_.cwiseProduct(measured_);
   const Eigen::MatrixXd normal = linear.transpose() * linear;
-  const Eigen::VectorXd c = normal.completeOrthogonalDecomposition().solve(linear.transpose() * measured_);
-  for (Eigen::Index i = 0; i < unknowns(); ++i)
+  const Eigen::VectorXd c = normal.completeOrthogonalDecomposition().solve(linear.transpose() * measured);
+  for (Eigen::Index i = 0; i < shift_at(0); ++i)
     if (i < s || i >= s + shape_size()) x(i) = c(i);
-  return {x, linear * c - measured_};
+  return {x, linear * c - measured};
 }
 
 LeastSquaresProblem MotorProblem::problem(const std::vector<Eigen::VectorXd>& starts) const {
-  const Eigen::Index known = dead_time_ == DeadTime::zero ? 2 : 1;
+  const Eigen::Index zero = freedom_.dead_time == DeadTime::zero ? 1 : 0, known = 1 + zero + shifts();
   LeastSquaresProblem p{.residuals = samples_ + known};
   for (Eigen::Index i = 0; i < unknowns(); ++i) {
     const bool positive = i >= shape_at() && i < shape_at() + shape_size() && i != shape_at() + 2;
@@ -134,14 +149,19 @@ LeastSquaresProblem MotorProblem::problem(const std::vector<Eigen::VectorXd>& st
     row = p.series.back().end;
   }
   p.series.push_back({.begin = row, .end = row + known, .group = 1});
-  p.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+  p.evaluate = [this, zero](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     Eigen::VectorXd Omega(samples_);
     predict(x, Omega, J);
-    r.head(samples_) = Omega - measured_;
+    r.head(samples_) = weights_.cwiseProduct(Omega - measured_);
+    if (J) J->topRows(samples_) = weights_.asDiagonal() * J->topRows(samples_);
     // A motor without inertia is as likely to the data as one of first order: the prior ends the search.
     r(samples_) = std::log(x(shape_at()) / kUsualOmega) / kOmegaSpread;
     if (J) (*J)(samples_, shape_at()) = 1.0 / (kOmegaSpread * x(shape_at()));
-    if (dead_time_ == DeadTime::zero) {
+    for (Eigen::Index e = 0; e < shifts(); ++e) {
+      r(samples_ + 1 + zero + e) = x(shift_at(0) + e) / freedom_.edge_scatter;
+      if (J) (*J)(samples_ + 1 + zero + e, shift_at(0) + e) = 1.0 / freedom_.edge_scatter;
+    }
+    if (zero > 0) {
       r(samples_ + 1) = x(shape_at() + 2) / kNoDeadTime;
       if (J) (*J)(samples_ + 1, shape_at() + 2) = 1.0 / kNoDeadTime;
     }
@@ -152,12 +172,18 @@ LeastSquaresProblem MotorProblem::problem(const std::vector<Eigen::VectorXd>& st
 
 MotorFit MotorProblem::solve(const std::vector<Eigen::VectorXd>& starts,
                              const LeastSquaresOptions& options) const {
-  MotorFit result{.curve = curve_, .fit = solve_least_squares(problem(starts), options)};
+  MotorFit result{.curve = freedom_.curve, .fit = solve_least_squares(problem(starts), options)};
   result.shape = shape(result.fit.x);
   result.dead_time = fitted_parameter(result.fit, "dead_time", "s", "motor");
   Eigen::VectorXd Omega(samples_);
   predict(result.fit.x, Omega, nullptr);
   result.predicted.assign(Omega.begin(), Omega.end());
+  result.edge_scatter = freedom_.edge_scatter;
+  for (Eigen::Index e = 0; e < shifts(); ++e) result.shifts.push_back(result.fit.x(shift_at(0) + e));
+  // Rows count with their own scale, so that fits with other scales can be compared.
+  result.criterion = result.fit.bic - 2.0 * weights_.array().log().sum();
+  result.scales.assign(weights_.begin(), weights_.end());
+  for (double& scale : result.scales) scale = 1.0 / scale;
   return result;
 }
 

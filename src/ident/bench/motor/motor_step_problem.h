@@ -8,43 +8,55 @@
 
 namespace ident {
 
+/// What is free in a problem.
+struct MotorFreedom {
+  StaticCurve curve = StaticCurve::proportional;
+  SpinDirections directions = SpinDirections::alike;
+  DeadTime dead_time = DeadTime::free;
+  double edge_scatter = 0.0;  ///< s, standard deviation of the edges' own dead times; 0: one for all
+};
+
 /// Unknowns in the order: coefficients of the static curve, shape, speed and rate at the start of each
-/// record. The records have to outlive it.
+/// record, shifts of the edges. The records have to outlive it.
 class MotorProblem {
  public:
-  MotorProblem(const std::vector<StepRecord>& records, StaticCurve curve, SpinDirections directions,
-               DeadTime dead_time = DeadTime::free);
+  /// `scales` of the rows (motor_step_scale.h); empty: all alike.
+  MotorProblem(const std::vector<StepRecord>& records, const MotorFreedom& freedom,
+               std::vector<double> scales = {});
 
-  /// Start with that shape: everything else is linear.
+  /// Start with that shape and, where edges are free, those shifts: everything else is linear.
   struct Start {
     Eigen::VectorXd x;
-    Eigen::VectorXd residuals;  ///< model minus measurement, rad/s
+    Eigen::VectorXd residuals;  ///< model minus measurement, rad/s, each over the scale of its row
   };
-  Start start(const MotorShape& shape) const;
+  Start start(const MotorShape& shape, const std::vector<double>& shifts = {}) const;
 
   MotorFit solve(const std::vector<Eigen::VectorXd>& starts,
                  const LeastSquaresOptions& options = {.search_widely = false}) const;
 
  private:
   Eigen::Index shape_at() const { return coefficients_; }
-  Eigen::Index shape_size() const { return directions_ == SpinDirections::apart ? 4 : 3; }
+  Eigen::Index shape_size() const { return freedom_.directions == SpinDirections::apart ? 4 : 3; }
   Eigen::Index start_at(std::size_t record) const {
     return shape_at() + shape_size() + 2 * static_cast<Eigen::Index>(record);
   }
-  Eigen::Index unknowns() const { return start_at(records_.size()); }
+  Eigen::Index shift_at(std::size_t record) const { return start_at(records_.size()) + first_shift_[record]; }
+  Eigen::Index shifts() const { return freedom_.edge_scatter > 0.0 ? steps_ : 0; }
+  Eigen::Index unknowns() const { return start_at(records_.size()) + shifts(); }
   MotorShape shape(const Eigen::VectorXd& x) const;
+  /// A record with its edges where x says that they are.
+  StepRecord moved(const Eigen::VectorXd& x, std::size_t record) const;
   std::string name(Eigen::Index unknown) const;
   /// The model's speeds; the Jacobian when it is not null.
   void predict(const Eigen::VectorXd& x, Eigen::VectorXd& Omega, Eigen::MatrixXd* J) const;
   LeastSquaresProblem problem(const std::vector<Eigen::VectorXd>& starts) const;
 
   const std::vector<StepRecord>& records_;
-  StaticCurve curve_;
-  SpinDirections directions_;
-  DeadTime dead_time_;
-  Eigen::Index coefficients_ = 0, samples_ = 0;
+  MotorFreedom freedom_;
+  Eigen::Index coefficients_ = 0, samples_ = 0, steps_ = 0;
+  Eigen::VectorXd weights_;  ///< of the rows, one over their scale
   std::vector<Eigen::MatrixXd> inputs_;
-  std::vector<Eigen::Index> first_coefficient_;
+  std::vector<Eigen::Index> first_coefficient_, first_shift_;
   Eigen::VectorXd measured_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/bench/columns/speed_column.h"
 #include "ident/core/error.h"
 #include "ident/core/math.h"
 #include "ident/core/statistics.h"
@@ -34,20 +35,19 @@ void expect_motion(const NumberTable& table, const std::vector<double>& speed, c
                     table.file, usual));
 }
 
-bool turns(const std::vector<double>& speed) {
-  return std::ranges::any_of(speed, [](double v) { return std::isfinite(v) && v != 0.0; });
-}
-
-/// The file's plain rotor speed, else the electrical, else the optical one, whichever is not all zero.
-const std::vector<double>& speed_of(const NumberTable& table, std::vector<Warning>& warnings) {
-  for (const char* name : {"omega", "omega_electrical", "omega_optical"}) {
-    const std::vector<double>* column = table.find(name);
-    if (!column || !turns(*column)) continue;
-    if (std::string(name) != "omega")
-      warnings.push_back({"speed_column", fmt::format("{}: the speed is taken from {}", table.file, name)});
-    return *column;
-  }
-  throw DataError(table.file + ": the motor never turns: every speed is zero or missing");
+/// Turned round where it is negative: a stand may count either sense of rotation so.
+std::vector<double> speed_of(const NumberTable& table, std::vector<Warning>& warnings) {
+  const Column* column = speed_column(table, warnings);
+  if (!column)
+    throw DataError(fmt::format("{}: the motor never turns ({})", table.file, speed_columns_in_words(table)));
+  if (column->name != "omega")
+    warnings.push_back(
+        {"speed_column", fmt::format("{}: the speed is taken from '{}'", table.file, column->header)});
+  std::vector<double> speed = column->values;
+  const double usual = median(speed);
+  if (usual < 0.0)
+    for (double& v : speed) v = -v;
+  return speed;
 }
 
 /// Command of each row; a row without one repeats the command before it.
@@ -100,7 +100,7 @@ std::vector<StepRecord> step_records(const NumberTable& table, const std::option
                                      std::vector<Warning>& warnings) {
   const std::vector<double>* time = table.find("t");
   if (!time) throw DataError(table.file + ": there is no time");
-  const std::vector<double>& speed = speed_of(table, warnings);
+  const std::vector<double> speed = speed_of(table, warnings);
   expect_motion(table, speed, *time);
   const std::vector<double> command = command_of(table, range, warnings);
   const double pause = std::max(kShortestPause, kPauseIntervals * usual_interval(*time));

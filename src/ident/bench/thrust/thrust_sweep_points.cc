@@ -16,6 +16,9 @@ namespace ident {
 namespace {
 
 constexpr std::size_t kMostRawPoints = 3000;  // beyond it rows of a set-point are averaged as in a log
+constexpr std::size_t kMostSetPoints =
+    80;  // with a speed of their own each: cost grows with the square of their number
+constexpr std::size_t kMostStretches = 100;  // of a ramp in a table
 constexpr std::size_t kFewestInADwell = 3;
 constexpr std::size_t kFewestPoints = 3;
 constexpr std::size_t kFewestDwells = 4;
@@ -95,6 +98,40 @@ std::vector<RestStay> take_dwells(const SweepRows& rows, const std::vector<doubl
   return stays;
 }
 
+/// Rows of a ramp, every few of them a point: the mean of the force over the mean of the squared speed, on
+/// which (1) is a line. Noise of the speed adds its variance to all squares alike, so that it reaches the
+/// tare and not the slope. Returns the stays at rest.
+std::vector<RestStay> take_stretches(const SweepRows& rows, const std::vector<double>& y,
+                                     SweepChannel& channel) {
+  std::vector<std::size_t> moving;
+  std::vector<RestStay> stays;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<double> rest, rest_places;
+    for (; i < rows.size() && rows.at_rest[i]; ++i)
+      if (std::isfinite(y[i])) rest.push_back(y[i]), rest_places.push_back(rows.place[i]);
+    if (rest.size() >= kFewestInADwell) {
+      stays.push_back(rest_stay(mean(rest_places), rest));
+      channel.rest.push_back(stays.back().value);
+      channel.rest_place.push_back(stays.back().place);
+      channel.used += rest.size();
+    }
+    if (i < rows.size() && std::isfinite(y[i]) && std::isfinite(rows.Omega[i])) moving.push_back(i);
+  }
+  const std::size_t length = std::max(kFewestInADwell, moving.size() / kMostStretches);
+  for (std::size_t begin = 0; begin + length <= moving.size(); begin += length) {
+    std::vector<double> values, squares, places;
+    for (std::size_t k = begin; k < begin + length; ++k) {
+      values.push_back(y[moving[k]]);
+      squares.push_back(square(rows.Omega[moving[k]]));
+      places.push_back(rows.place[moving[k]]);
+    }
+    const RobustMean found = robust_mean(values);
+    channel.moving.push_back({std::sqrt(mean(squares)), found.value, mean(places), -1});
+  }
+  channel.used += channel.moving.size() * length;
+  return stays;
+}
+
 /// The level of the tare from the stays at rest of a log; its drift is taken off the points.
 void take_tare(const std::vector<RestStay>& stays, SweepChannel& channel) {
   if (stays.empty()) return;
@@ -112,7 +149,9 @@ SweepChannel channel_of(const SweepRows& rows, const std::vector<double>& y, std
   for (std::size_t i = 0; i < y.size(); ++i)
     channel.rows += std::isfinite(y[i]) && std::isfinite(rows.Omega[i]);
   std::vector<RestStay> stays;
-  if (points.averaged)
+  if (points.ramp)
+    stays = take_stretches(rows, y, channel);
+  else if (points.averaged)
     stays = take_dwells(rows, y, channel);
   else
     take_rows(rows, y, channel);
@@ -178,8 +217,13 @@ double SweepChannel::full_scale() const {
 
 SweepPoints sweep_points(const SweepRows& rows) {
   SweepPoints points;
-  const bool repeated = static_cast<std::size_t>(rows.set_points) * kFewestInADwell < rows.size();
-  points.averaged = rows.is_log || (rows.size() > kMostRawPoints && repeated);
+  std::size_t moving = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) moving += std::isfinite(rows.Omega[i]) && !rows.at_rest[i];
+  const auto set_points = static_cast<std::size_t>(rows.set_points);
+  const bool repeated = set_points * kFewestInADwell < rows.size(), alone = moving == set_points;
+  const bool many = rows.size() > kMostRawPoints || (set_points > kMostSetPoints && !alone);
+  points.ramp = many && !repeated && !rows.is_log;
+  points.averaged = rows.is_log || many;
   points.thrust = channel_of(rows, rows.thrust, "thrust", "N", points);
   points.torque = channel_of(rows, rows.torque, "torque", "N m", points);
   expect_thrust(points.thrust, rows.file);

@@ -37,7 +37,8 @@ struct SweepChannel {
 /// How the points of a file came about.
 struct SweepPoints {
   SweepChannel thrust, torque;  ///< torque without points where the file has none
-  bool averaged = false;        ///< points are means over dwells
+  bool averaged = false;        ///< points are means over dwells, or over stretches of a ramp
+  bool ramp = false;            ///< rows without a time, of a speed that hardly ever stays
   double lag = kNaN;            ///< s by which the forces trail the speed; only where nothing is steady
   bool has_torque() const { return !torque.moving.empty(); }
 };

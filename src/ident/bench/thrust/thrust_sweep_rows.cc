@@ -77,18 +77,32 @@ std::vector<double> command_of(const NumberTable& table, const std::optional<Com
   return u;  // without a range only good to tell set-points apart
 }
 
-/// A rotor stands where its speed is zero in several rows on end, or its command is zero.
+/// The command from which on the rotor turns: nine of ten rows in which it does have more. NaN without
+/// commands.
+double turning_command(const SweepRows& rows, double standing) {
+  std::vector<double> commands;
+  for (std::size_t i = 0; i < rows.delta.size(); ++i)
+    if (rows.Omega[i] > standing && std::isfinite(rows.delta[i])) commands.push_back(rows.delta[i]);
+  if (commands.empty()) return kNaN;
+  const auto at = commands.begin() + static_cast<std::ptrdiff_t>(commands.size() / 10);
+  std::ranges::nth_element(commands, at);
+  return *at;
+}
+
+/// A rotor stands where its speed is zero in several rows on end, or its command is zero. Where the command
+/// is one at which it turns elsewhere the sensor missed it.
 void find_rest(SweepRows& rows, bool command_is_delta) {
-  const double standing = kRest * largest(rows.Omega);
+  const double standing = kRest * largest(rows.Omega), turning = turning_command(rows, standing);
   rows.at_rest.assign(rows.size(), false);
   for (std::size_t i = 0; i < rows.size();) {
     std::size_t end = i;
     while (end < rows.size() && rows.Omega[end] <= standing) ++end;
     for (std::size_t k = i; k < end; ++k) {
       const bool commanded = command_is_delta && !rows.delta.empty() && rows.delta[k] <= 0.0;
-      rows.at_rest[k] = commanded || end - i >= kFewestAtRest;
+      const bool missed = !rows.delta.empty() && rows.delta[k] > turning;
+      rows.at_rest[k] = commanded || (end - i >= kFewestAtRest && !missed);
       if (!rows.at_rest[k]) {
-        ++rows.doubtful_rest;
+        ++(missed ? rows.missed : rows.doubtful_rest);
         rows.Omega[k] = kNaN;
       }
     }

@@ -24,6 +24,7 @@ struct SweepRows {
   int set_points = 0;
   std::vector<bool> at_rest;  ///< the rotor stands, beyond doubt
   std::size_t doubtful_rest = 0, spikes = 0, filled = 0;
+  std::size_t missed = 0;  ///< speed 0 at commands at which the rotor turns elsewhere
   std::string speed_column;
   bool pulse_without_range = false;  ///< `u` is there, but not which pulse widths mean 0 and 1
 

@@ -13,9 +13,8 @@ struct SweepSpeed {
   std::string column;  ///< header that it was taken from
 };
 
-/// `omega` is preferred, then the optical speed, then the electrical one. Two speeds that are there are
-/// compared: a small integer ratio is a wrong number of poles (or of marks) and warned of as `pole_count`.
-/// Throws DataError, saying what each column holds, when none is usable.
+/// The column that `speed_column` trusts. Throws DataError, saying what each column holds, when none is
+/// usable.
 SweepSpeed sweep_speed(const NumberTable& table, std::vector<Warning>& warnings);
 
 /// Replaces single samples that stand out of a running median by more than `least`, and counts them. For logs
@@ -25,12 +24,5 @@ std::size_t remove_speed_spikes(std::vector<double>& Omega, double least);
 /// Linear in `place` between the samples around a gap of at most `longest`; ends stay as they are. Returns
 /// how many were filled.
 std::size_t fill_gaps(std::vector<double>& values, const std::vector<double>& place, double longest);
-
-/// p and q up to `largest` with p/q within `tolerance` (relative) of the ratio and p + q least; {0, 0} if
-/// there is none.
-struct SmallRatio {
-  int p = 0, q = 0;
-};
-SmallRatio small_ratio(double ratio, int largest, double tolerance);
 
 }  // namespace ident

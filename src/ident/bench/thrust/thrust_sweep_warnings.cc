@@ -44,6 +44,18 @@ void about_rows(const SweepFile& file, Sayer& say) {
         "Three rows "
         "at rest on end, or a command column, would settle the tare",
         rows.doubtful_rest);
+  if (rows.missed > 0)
+    say("speed_missed",
+        "{} rows show speed 0 at commands at which the rotor turns elsewhere: the sensor of '{}' missed it; "
+        "they "
+        "are left out",
+        rows.missed, rows.speed_column);
+  if (file.points.ramp)
+    say("averaged_ramp",
+        "the speed stays at no set-point: {} rows are taken as {} means of neighbours, over which noise of "
+        "the "
+        "speed averages out",
+        file.points.thrust.used, file.points.thrust.moving.size());
   if (rows.spikes + file.fit.speed_outliers > 0)
     say("speed_spikes", "{} readings of '{}' stand out of their neighbours and are not used",
         rows.spikes + file.fit.speed_outliers, rows.speed_column);

@@ -19,9 +19,10 @@ using Eigen::VectorXd;
 // What "identifiable" means (notebooks/guide/formats.md): a standard deviation below this share of the
 // prior's, or, without a prior, of the value.
 constexpr double kShareOfPrior = 0.5, kShareOfValue = 0.1;
-constexpr double kMoved = 1e-6;    // of the standard deviation of the prior
-constexpr double kHeard = 0.05;    // least share of information from flight for a pull to mean anything
-constexpr double kTogether = 0.1;  // least correlation of priors that are named together
+constexpr double kMoved = 1e-6;       // of the standard deviation of the prior
+constexpr double kContradicts = 3.0;  // standard deviations of a pull: p = 0.003
+constexpr double kHeard = 0.05;       // least share of information from flight for a pull to mean anything
+constexpr double kTogether = 0.1;     // least correlation of priors that are named together
 
 // Pulls against correlated priors, in standard deviations: how much each prior, given the others, is
 // contradicted. With covariance C and precision P of the priors in standard deviations, the naive covariance
@@ -43,6 +44,8 @@ VectorXd pulls_together(const PriorTerms& prior, const FlightFit& fit) {
 // A constant that the bench knows well is no open question where flight adds nothing to it.
 std::string why_not(const Parameter& p) {
   if (!p.prior_std) return "these logs do not determine it";
+  if (std::abs(*p.pull) > kContradicts)
+    return "these logs contradict what was known, and do not determine it";
   const bool known = *p.prior_std < kShareOfValue * std::abs(*p.prior_value);
   return known ? "known from what was stated, these logs add little"
                : "these logs say little beyond what was known";

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "ident/core/parse_number.h"
+#include "ident/io/csv/thousands.h"
 
 namespace ident {
 namespace {
@@ -83,7 +84,13 @@ std::optional<double> CellNumbers::parse(std::string_view cell) {
 
 std::optional<double> CellNumbers::read(std::string_view cell, const std::string& column, long line) {
   if (cell.empty()) return kNaN;
-  const std::optional<double> value = parse(cell);
+  std::optional<double> value = parse(cell);
+  had_thousands_ = false;
+  if (!value) {
+    const std::string plain = without_thousands(cell, dialect_.decimal);
+    if (!plain.empty()) value = parse_number(plain);
+    had_thousands_ = value.has_value();
+  }
   if (!value && !says_no_value(cell)) return std::nullopt;
   if (!value || std::isnan(*value)) {
     note(nan_, column, line);

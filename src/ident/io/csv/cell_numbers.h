@@ -23,11 +23,14 @@ class CellNumbers {
  public:
   explicit CellNumbers(CsvDialect dialect) : dialect_(dialect) {}
 
-  /// The number in a cell; empty when it is none. A decimal comma is understood unless points came before.
+  /// The number in a cell; empty when it is none. A decimal comma is understood unless points came before,
+  /// and so are marks of thousands where they cannot be decimal marks.
   std::optional<double> read(std::string_view cell, const std::string& column, long line);
   /// Seconds of a time of day, with or without a date, from the midnight before the first one.
   std::optional<double> read_clock(std::string_view cell);
 
+  /// Whether the cell that was read last had marks of thousands.
+  bool had_thousands() const { return had_thousands_; }
   bool used_decimal_comma() const { return dialect_.decimal == DecimalMark::comma; }
   /// Warnings `nan_cells`, `infinite_cells`, `tiny_numbers`.
   std::vector<Warning> warnings(const std::string& file) const;
@@ -36,6 +39,7 @@ class CellNumbers {
   std::optional<double> parse(std::string_view cell);
 
   CsvDialect dialect_;
+  bool had_thousands_ = false;
   OddCells nan_, infinite_, tiny_;
   std::optional<long> first_day_;
 };

@@ -108,7 +108,8 @@ std::optional<std::string_view> LineSource::next() {
   }
   if (text == nullptr) return std::nullopt;
   ++line_;
-  const std::string_view line(text);
+  std::string_view line(text);
+  while (line.ends_with('\r')) line.remove_suffix(1);  // CR CR LF, of text that was written as text twice
   if (line.size() > kLongestLine) refuse_long_line(path_, line_);
   return line;
 }

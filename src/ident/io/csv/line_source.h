@@ -8,8 +8,8 @@
 
 namespace ident {
 
-/// Lines without their end (LF or CRLF), the byte order mark removed. Throws InputError on a read error, NUL
-/// bytes, UTF-16, a git-LFS pointer, and on a line of more than 1 MiB.
+/// Lines without their end (LF, CR LF, CR CR LF), the byte order mark removed. Throws InputError on a read
+/// error, NUL bytes, UTF-16, a git-LFS pointer, and on a line of more than 1 MiB.
 class LineSource {
  public:
   explicit LineSource(const std::string& path);

@@ -9,6 +9,8 @@
 #include <set>
 
 #include "ident/core/error.h"
+#include "ident/core/nearest_word.h"
+#include "ident/io/csv/table_map.h"
 
 namespace ident {
 namespace {
@@ -24,7 +26,8 @@ std::vector<Alias> spellings(const Signal& signal) {
 
 class Matcher {
  public:
-  Matcher(const std::string& path, const CsvReader& csv) : path_(path), csv_(csv) {
+  Matcher(const std::string& path, const CsvReader& csv, const TableMap* map)
+      : path_(path), csv_(csv), map_(map) {
     for (const std::string& header : csv.header()) keys_.push_back(header_key(header));
   }
 
@@ -39,21 +42,28 @@ class Matcher {
   }
 
   std::optional<ChosenColumn> choose(const Signal& signal) {
+    if (map_ && map_->columns.contains(signal.name)) return mapped(signal, map_->columns.at(signal.name));
     for (const Alias& spelling : spellings(signal)) {
       auto at = find(spelling.header);
       if (!at && unit_factor("1", signal.dimension))
         at = find(spelling.header + "[1]");  // that unit, no index
       if (!at) continue;
+      if (map_ && used_.contains(*at)) continue;  // the map says what that is
       used_.insert(*at);
       const double unit =
           column_factor(path_, csv_.header_line(), csv_.header()[*at], signal.dimension, spelling.unit);
-      return ChosenColumn{.name = signal.name, .index = *at, .unit = unit, .is_time = signal.name == "t"};
+      return ChosenColumn{.name = signal.name,
+                          .index = *at,
+                          .unit = unit,
+                          .is_time = signal.name == "t",
+                          .is_fraction = signal.dimension == Dimension::fraction};
     }
-    return std::nullopt;
+    return with_unit_in_name(signal);
   }
 
   std::optional<ChosenText> choose(const TextSignal& signal) {
-    const auto at = find(signal.name);
+    const bool is_mapped = map_ && map_->columns.contains(signal.name);
+    const auto at = is_mapped ? named(map_->columns.at(signal.name)) : find(signal.name);
     if (!at) return std::nullopt;
     used_.insert(*at);
     return ChosenText{signal.name, *at, signal.words};
@@ -67,13 +77,77 @@ class Matcher {
     return {fmt::format("{}: ignored columns: {}", path_, column_list(ignored))};
   }
 
+  /// Columns of the map first, so that nothing else takes them.
+  void reserve(const TableSchema& schema) {
+    if (!map_) return;
+    for (const Signal& signal : schema.signals)
+      if (const auto at = map_->columns.find(signal.name); at != map_->columns.end())
+        used_.insert(*named(at->second));
+  }
+
  private:
+  /// A column that the map names, by its whole header or by its header without unit.
+  std::optional<std::size_t> named(const TableColumn& column) const {
+    const auto whole = std::ranges::find(csv_.header(), column.column);
+    if (whole != csv_.header().end()) return static_cast<std::size_t>(whole - csv_.header().begin());
+    if (const auto at = find(column.column)) return at;
+    throw InputError(
+        path_, csv_.header_line(), column.column,
+        fmt::format("the column is missing, which {}:{} names{}; the file has: {}", map_->file, column.line,
+                    did_you_mean(column.column, csv_.header()), column_list(csv_.header())));
+  }
+
+  ChosenColumn mapped(const Signal& signal, const TableColumn& column) {
+    const std::size_t at = *named(column);
+    used_.insert(at);
+    double unit = 1.0;
+    if (column.unit.empty()) {
+      unit = column_factor(path_, csv_.header_line(), csv_.header()[at], signal.dimension, "");
+    } else if (const auto factor = unit_factor(column.unit, signal.dimension)) {
+      unit = *factor;
+    } else {
+      throw InputError(map_->file, column.line, signal.name,
+                       fmt::format("unit '{}' is not known for this signal; known: {}", column.unit,
+                                   known_units(signal.dimension)));
+    }
+    return {.name = signal.name,
+            .index = at,
+            .unit = unit,
+            .scale = column.scale,
+            .offset = column.offset,
+            .is_time = signal.name == "t",
+            .is_fraction = signal.dimension == Dimension::fraction};
+  }
+
+  /// `thrust_gf`: a spelling and a unit of the dimension.
+  std::optional<ChosenColumn> with_unit_in_name(const Signal& signal) {
+    for (const Alias& spelling : spellings(signal))
+      for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const std::string start = header_key(spelling.header) + ' ';
+        if (used_.contains(i) || !keys_[i].starts_with(start) || split_header(csv_.header()[i]).unit)
+          continue;
+        const std::string& header = csv_.header()[i];  // with capitals, which units may have
+        const std::string unit = header.substr(header.find_last_of(" _") + 1);
+        if (header_key(unit) != keys_[i].substr(start.size())) continue;
+        const std::optional<double> factor = unit_factor(unit, signal.dimension);
+        if (!factor) continue;
+        used_.insert(i);
+        return ChosenColumn{.name = signal.name,
+                            .index = i,
+                            .unit = *factor,
+                            .is_time = signal.name == "t",
+                            .is_fraction = signal.dimension == Dimension::fraction};
+      }
+    return std::nullopt;
+  }
+
   std::size_t index(std::vector<std::string>::const_iterator at) const {
     return static_cast<std::size_t>(at - keys_.begin());
   }
 
   const std::string& path_;
   const CsvReader& csv_;
+  const TableMap* map_;
   std::vector<std::string> keys_;
   std::set<std::size_t> used_;
 };
@@ -110,8 +184,10 @@ std::string column_list(const std::vector<std::string>& header) {
   return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-HeaderMatch match_header(const std::string& path, const CsvReader& csv, const TableSchema& schema) {
-  Matcher matcher(path, csv);
+HeaderMatch match_header(const std::string& path, const CsvReader& csv, const TableSchema& schema,
+                         const TableMap* map) {
+  Matcher matcher(path, csv, map);
+  matcher.reserve(schema);
   HeaderMatch match;
   for (const Signal& signal : schema.signals)
     if (auto column = matcher.choose(signal)) match.columns.push_back(*column);

@@ -20,8 +20,10 @@ struct HeaderMatch {
 /// Header without unit, case, and with blanks for underscores: what is compared.
 std::string header_key(std::string_view header);
 
-/// Throws InputError for an unknown unit and for a column that stands there twice.
-HeaderMatch match_header(const std::string& path, const CsvReader& csv, const TableSchema& schema);
+/// A unit may also be the last word of a name that is else unknown: `thrust_gf`. Throws InputError for an
+/// unknown unit, for a column that stands there twice and for one that the map names and the file lacks.
+HeaderMatch match_header(const std::string& path, const CsvReader& csv, const TableSchema& schema,
+                         const TableMap* map = nullptr);
 
 /// Factor to SI of a column: its own unit, else `default_unit`, else SI. Throws InputError.
 double column_factor(const std::string& path, long line, const std::string& header, Dimension dimension,

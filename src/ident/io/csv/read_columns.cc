@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "ident/core/error.h"
 #include "ident/core/nearest_word.h"
@@ -40,7 +41,8 @@ class Loop {
         columns_(columns),
         text_(text),
         numbers_(csv.dialect()),
-        row_(columns.size()) {
+        row_(columns.size()),
+        grouped_(columns.size()) {
     table_.file = path;
     for (const ChosenColumn& c : columns) table_.columns.push_back({c.name, csv.header()[c.index], {}});
     for (const ChosenText& c : text) table_.text.push_back({c.name, {}});
@@ -52,7 +54,10 @@ class Loop {
     Cells cells;
     while (csv_.next_row(cells))
       if (!is_header_again(cells) && take_numbers(cells)) take_row(cells);
+    if (table_.rows() > 0) judge_last_line();
+    if (csv_.short_rows_are_damage()) drop_rows(short_rows_);
     if (table_.rows() == 0) throw InputError(path_, csv_.header_line(), "", "has a header, but no rows");
+    expect_thousands_alike();
     finish();
     return std::move(table_);
   }
@@ -76,13 +81,14 @@ class Loop {
 
   /// Numbers of this row into `row_`; false where the row was cut off and dropped.
   bool take_numbers(const Cells& cells) {
+    const bool is_short = csv_.is_short_row();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const std::string_view cell = cells[columns_[i].index];
       const std::optional<double> number = columns_[i].is_time && cell.find(':') != std::string_view::npos
                                                ? read_clock(cell)
                                                : read_number(cell, i);
       if (!number) {
-        refuse_or_drop(cell, i);
+        is_short ? csv_.drop_short() : refuse_or_drop(cell, i);
         return false;
       }
       row_[i] = *number;
@@ -93,9 +99,34 @@ class Loop {
   std::optional<double> read_number(std::string_view cell, std::size_t i) {
     if (columns_[i].is_time && clock_seen_ && !cell.empty()) return std::nullopt;
     const ChosenColumn& c = columns_[i];
+    const bool percent = c.is_fraction && cell.ends_with('%');
+    if (percent) cell = cell.substr(0, cell.find_last_not_of(" %") + 1);
     const std::optional<double> number = numbers_.read(cell, header(i), csv_.line());
     if (!number) return number;
+    note_thousands(*number, i);
+    if (percent) return c.scale * (*number / 100.0) + c.offset;
     return c.unit * (c.scale * *number + c.offset);
+  }
+
+  /// 1,234 may have a decimal comma: a column that has marks of thousands has them from 1000 on.
+  void note_thousands(double number, std::size_t i) {
+    Grouped& g = grouped_[i];
+    if (numbers_.had_thousands())
+      g.line = g.line > 0 ? g.line : csv_.line();
+    else if (std::abs(number) >= 1000.0)
+      g.plain = g.plain > 0 ? g.plain : csv_.line();
+  }
+
+  void expect_thousands_alike() {
+    for (std::size_t i = 0; i < grouped_.size(); ++i) {
+      const Grouped& g = grouped_[i];
+      if (g.line == 0) continue;
+      if (g.plain > 0)
+        throw InputError(
+            path_, g.line, header(i),
+            fmt::format("a mark of thousands here and none in line {}: is it a decimal mark?", g.plain));
+      table_.notices.push_back(fmt::format("{}:{}: {}: marks of thousands", path_, g.line, header(i)));
+    }
   }
 
   std::optional<double> read_clock(std::string_view cell) {
@@ -115,6 +146,39 @@ class Loop {
     for (std::size_t k = 0; k < text_.size(); ++k) table_.text[k].values.push_back(word(cells, text_[k]));
     for (std::size_t i = 0; i < columns_.size(); ++i) table_.columns[i].values.push_back(row_[i]);
     table_.line.push_back(csv_.line());
+    if (csv_.is_short_row()) short_rows_.push_back(table_.rows() - 1);
+  }
+
+  /// A line without an end is no data where rows were recorded one after the other: its last number may be
+  /// cut. Of a table that was written by hand only the newline is missing.
+  void judge_last_line() {
+    if (table_.line.back() != csv_.last_content_line() || !csv_.is_unfinished()) return;
+    const bool is_short = !short_rows_.empty() && short_rows_.back() + 1 == table_.rows();
+    const bool recorded = std::ranges::any_of(columns_, [](const ChosenColumn& c) { return c.is_time; });
+    if (!is_short && (!recorded || table_.rows() < 2)) {
+      table_.notices.push_back(path_ + ": the last line has no end; its row is taken as whole");
+      return;
+    }
+    csv_.drop_unfinished();
+    if (is_short) short_rows_.pop_back();
+    drop_rows({table_.rows() - 1});
+  }
+
+  /// `rows` in rising order.
+  void drop_rows(const std::vector<std::size_t>& rows) {
+    const auto drop = [&](auto& values) {
+      std::size_t next = 0, kept = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (next < rows.size() && rows[next] == i)
+          ++next;
+        else if (kept++ != i)
+          values[kept - 1] = std::move(values[i]);
+      }
+      values.resize(kept);
+    };
+    for (Column& column : table_.columns) drop(column.values);
+    for (TextColumn& column : table_.text) drop(column.values);
+    drop(table_.line);
   }
 
   std::string word(const Cells& cells, const ChosenText& column) const {
@@ -149,6 +213,11 @@ class Loop {
   CellNumbers numbers_;
   NumberTable table_;
   std::vector<double> row_;
+  struct Grouped {
+    long line = 0, plain = 0;  ///< first lines with a mark of thousands, and without one from 1000 on
+  };
+  std::vector<Grouped> grouped_;  ///< of each column
+  std::vector<std::size_t> short_rows_;
   long header_again_ = 0;
   bool clock_seen_ = false;
 };

@@ -15,7 +15,8 @@ struct ChosenColumn {
   std::string name;  ///< canonical signal
   std::size_t index = 0;
   double unit = 1.0, scale = 1.0, offset = 0.0;
-  bool is_time = false;  ///< may hold clock times
+  bool is_time = false;      ///< may hold clock times
+  bool is_fraction = false;  ///< `40%` is 0.4, whatever the unit of the column
 };
 
 /// A column of words, read as it stands.

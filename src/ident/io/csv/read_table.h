@@ -45,9 +45,16 @@ struct TableSchema {
 /// t, delta | u (pulse width in us), omega | omega_electrical | omega_optical; voltage.
 /// axis (text: x, y, z, platform), period | time and oscillations, mass, radius, length; offset, amplitude,
 
+struct TableMap;
+
+struct TableOptions {
+  std::string names;              ///< the header of a file that has none, with commas
+  const TableMap* map = nullptr;  ///< columns under other names
+};
+
 /// Reads a table. Columns that the file does not have, or that are empty throughout, are absent from the
 /// result. Throws InputError (not readable, a required column missing, an implausible unit) or DataError (a
 /// required column without any usable value).
-NumberTable read_table(const std::string& path, const TableSchema& schema);
+NumberTable read_table(const std::string& path, const TableSchema& schema, const TableOptions& options = {});
 
 }  // namespace ident

@@ -1,6 +1,6 @@
 // What thrust sweeps, motor steps and pendulum files hold, with the spellings of common exports:
-// RCbenchmark 15xx ("Motor Optical Speed (RPM)", "ESC signal (us)") and AutoQuad ESC32 logs ("Duty", "Batt.
-// Volts").
+// RCbenchmark 15xx ("Motor Optical Speed (RPM)", "ESC signal (us)"), 1780 ("ESC (us)") and AutoQuad ESC32
+// logs ("Duty", "Batt. Volts").
 
 namespace ident {
 namespace {
@@ -20,7 +20,7 @@ const Signal kOpticalSpeed = {"omega_optical", angular_rate, {{"motor optical sp
 const Signal kCommand = {
     "delta", fraction, {{"throttle", ""}, {"duty", "%"}, {"duty cycle", "%"}}, kFullCommand};
 const Signal kPulse = {
-    "u", pulse_width, {{"esc signal", ""}, {"pulse width", ""}, {"pwm", ""}}, kLongestPulse};
+    "u", pulse_width, {{"esc signal", ""}, {"esc", ""}, {"pulse width", ""}, {"pwm", ""}}, kLongestPulse};
 const Signal kVoltage = {
     "voltage", voltage, {{"batt. volts", ""}, {"battery voltage", ""}, {"motor volts", ""}}, 150.0};
 

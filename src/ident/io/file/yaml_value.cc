@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "ident/core/error.h"
 #include "ident/core/nearest_word.h"
@@ -16,11 +18,48 @@
 namespace ident {
 namespace {
 
-constexpr std::size_t kLargestFile = 16u << 20;
+// The library takes about 1 s for a megabyte; a parameter file with all its correlations has a tenth of one.
+constexpr std::size_t kLargestFile = 4u << 20;
 
-std::vector<YAML::Node> documents(const std::string& path, const std::string& text) {
+/// Where a document starts; what stands in it is passed over.
+class DocumentStart : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { at = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  }
+  void OnMapEnd() override {}
+
+  YAML::Mark at = YAML::Mark::null_mark();
+};
+
+/// Throws InputError where something follows the first document. YAML::LoadAll must not be asked: the library
+/// ends a document at a token that has no place there without taking it, and finds it again for ever.
+void expect_one_document(const std::string& path, const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStart first, second;
+  if (!parser.HandleNextDocument(first) || !parser.HandleNextDocument(second)) return;
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = 0; i <= second.at.line; ++i) std::getline(lines, line);
+  if (second.at.column == 0 && line.starts_with("---"))
+    throw InputError(path, 0, "", "holds more than one YAML document");
+  throw InputError(path, second.at.line + 1, fmt::format("column {}", second.at.column + 1),
+                   "is not valid YAML: what stands there has no place");
+}
+
+/// The one document of a text; a null node where there is none.
+YAML::Node document(const std::string& path, const std::string& text) {
   try {
-    return YAML::LoadAll(text);
+    expect_one_document(path, text);
+    return YAML::Load(text);
   } catch (const YAML::DeepRecursion& error) {
     throw InputError(path, error.mark.line + 1, "", "is nested too deeply");
   } catch (const YAML::Exception& error) {
@@ -111,10 +150,9 @@ std::vector<std::string> YamlValue::keys() const {
 
 YamlValue load_yaml(const std::string& path) {
   const std::string text = read_bytes(path, kLargestFile);
-  const std::vector<YAML::Node> all = documents(path, text);
-  if (all.empty() || all.front().IsNull()) throw InputError(path, 0, "", "is empty");
-  if (all.size() > 1) throw InputError(path, 0, "", "holds more than one YAML document");
-  return {path, "", all.front()};
+  const YAML::Node root = document(path, text);
+  if (root.IsNull()) throw InputError(path, 0, "", "is empty");
+  return {path, "", root};
 }
 
 }  // namespace ident
