@@ -4,6 +4,7 @@
 #include "command.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/log_formats/read_log_streams.h"
+#include "ident/io/rebuild/px4_commands.h"
 #include "ident/views/log_summary.h"
 #include "ident/views/streams_digest.h"
 
@@ -16,7 +17,10 @@ struct Options {
 };
 
 Outcome run(const Options& options, Context& context) {
-  const LogStreams log = read_log_streams(options.log);
+  LogStreams log = read_log_streams(options.log);
+  const nlohmann::ordered_json digest = options.streams ? streams_digest(log) : nlohmann::ordered_json();
+  const std::string table = options.streams ? streams_table(log) : "";
+  add_px4_commands(log);
   std::optional<LogMap> map;
   if (!options.map.empty()) {
     map = read_log_map(options.map);
@@ -32,9 +36,9 @@ Outcome run(const Options& options, Context& context) {
   const LogSummary summary = summarise_log(log, flight, why);
   Result result{.command = "log", .inputs = {options.log}};
   result.extra = summary.json;
-  if (options.streams) result.extra["streams"] = streams_digest(log);
+  if (options.streams) result.extra["streams"] = digest;
   if (flight) result.warnings = flight->warnings;
-  context.print = options.streams ? streams_table(log) : summary.text;
+  context.print = options.streams ? table : summary.text;
   return result;
 }
 

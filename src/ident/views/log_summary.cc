@@ -14,14 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::array<double, 2> ends(const LogStreams& log) {
-  std::array<double, 2> span{INFINITY, -INFINITY};
+/// s from the first to the last sample; what was sampled before the log began, and is kept in it, does not
+/// count.
+double length_of(const LogStreams& log) {
+  double first = INFINITY, last = -INFINITY;
   for (const LogStream& stream : log.streams)
-    if (!stream.t.empty()) {
-      span[0] = std::min(span[0], stream.t.front());
-      span[1] = std::max(span[1], stream.t.back());
-    }
-  return span;
+    for (const double t : stream.t)
+      if (t >= 0) first = std::min(first, t), last = std::max(last, t);
+  return last > first ? last - first : 0.0;
 }
 
 std::string firmware(const LogStreams& log) {
@@ -76,6 +76,10 @@ void tell_flight(const LogStreams& log, const FlightLog& flight, std::vector<std
                   std::max(flight.delta.size(), flight.Omega.size())));
   lines.push_back(fmt::format("signals:    {}", fmt::join(there, ", ")));
   if (!missing.empty()) lines.push_back(fmt::format("not logged: {}", fmt::join(missing, ", ")));
+  if (const auto at = log.facts.find("commands"); at != log.facts.end()) {
+    lines.push_back("commands:   " + at->second);
+    json["commands"] = at->second;
+  }
   lines.push_back("moved:      " + advice.movement);
   lines.push_back(fmt::format("can tell:   {}", fmt::join(advice.can, "; ")));
   lines.push_back(fmt::format("cannot:     {}", fmt::join(advice.cannot, "; ")));
@@ -88,8 +92,7 @@ LogSummary summarise_log(const LogStreams& log, const std::optional<FlightLog>& 
                          const std::string& why) {
   LogSummary summary;
   std::vector<std::string> lines;
-  const auto [first, last] = ends(log);
-  const double length = last > first ? last - first : 0.0;
+  const double length = length_of(log);
   summary.json["format"] = log.format;
   summary.json["seconds"] = length;
   summary.json["parameters_in_log"] = log.parameters.size();

@@ -15,7 +15,9 @@ namespace {
 // kg per squared metre of arm: 17 for a Crazyflie 2 (0.028 kg, 0.04 m) and [Phang]'s 0.5 kg vehicle (0.17 m),
 // 32 for PX4's x500 (2.0 kg, 0.25 m). A guess within a factor of two, and its deviation says so.
 constexpr double kMassPerArmSquared = 25.0;
-constexpr double kCellVoltage = 3.7;  // V, of a lithium polymer cell, nominal
+constexpr double kCrazyflie = 0.030,
+                 kCrazyflieDecks = 0.010;  // kg, 27 g without decks and the battery's spread
+constexpr double kCellVoltage = 3.7;       // V, of a lithium polymer cell, nominal
 
 std::string line(const std::string& text, const std::string& comment) {
   return fmt::format("{:<78} # {}\n", text, comment);
@@ -57,7 +59,7 @@ std::string title(const LogStreams& log) {
 
 std::string rotor_line(const Rotor& rotor) {
   return fmt::format("  - {{position: [{}, {}, {}], axis: [{}, {}, {}], spin: {}}}", rotor.r_B.x(),
-                     rotor.r_B.y(), rotor.r_B.z(), rotor.a_B.x(), rotor.a_B.y(), rotor.a_B.z(),
+                     rotor.r_B.y(), rotor.r_B.z(), rotor.a_B.x() + 0.0, rotor.a_B.y() + 0.0, rotor.a_B.z(),
                      rotor.s > 0 ? "ccw" : "cw");
 }
 
@@ -75,6 +77,7 @@ std::optional<Stated> stated(const LogStreams& log, std::initializer_list<const 
 std::string command_line(const LogStreams& log) {
   const auto low = stated(log, {"MOT_PWM_MIN", "PWM_MAIN_MIN1", "PWM_MAIN_MIN", "PWM_MIN", "RC3_MIN"});
   const auto high = stated(log, {"MOT_PWM_MAX", "PWM_MAIN_MAX1", "PWM_MAIN_MAX", "PWM_MAX", "RC3_MAX"});
+  if (log.find("actuator_motors:0")) return "";  // logged as 0 to 1
   if (!low || !high || low->value >= high->value) return "";
   return line(fmt::format("command: {{min: {}, max: {}}}", low->value, high->value),
               fmt::format("us, {} and {}", low->name, high->name));
@@ -114,12 +117,14 @@ VehicleDraft draft_vehicle(std::span<const LogStreams> logs) {
   const LogStreams& log = logs.front();
   const FrameGeometry geometry = geometry_of(log);
   const double arm = mean_arm(geometry.rotors);
-  const double mass = std::round(kMassPerArmSquared * arm * arm * 1e3) / 1e3;
+  const bool is_crazyflie = log.format == "crazyflie";
+  const double mass = is_crazyflie ? kCrazyflie : std::round(kMassPerArmSquared * arm * arm * 1e3) / 1e3;
+  const double mass_std = is_crazyflie ? kCrazyflieDecks : mass;
   VehicleDraft draft;
   draft.yaml = title(log);
   draft.yaml += fmt::format("name: {}_{}_rotors\n", log.format, geometry.rotors.size());
-  draft.yaml += line(fmt::format("mass: {{value: {}, std: {}}}", mass, mass),
-                     "FILL IN: kg, as it flies; this is a guess from its size");
+  draft.yaml += line(fmt::format("mass: {{value: {}, std: {}}}", mass, mass_std),
+                     "FILL IN: kg, as it flies; this is a guess from its kind or size");
   draft.fill_in.emplace_back("mass");
   draft.yaml += command_line(log);
   draft.yaml += "rotors:\n";

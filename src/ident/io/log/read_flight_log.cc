@@ -21,6 +21,7 @@
 #include "ident/io/log_cleaning/log_spikes.h"
 #include "ident/io/log_formats/read_log_streams.h"
 #include "ident/io/log_formats/refusals.h"
+#include "ident/io/rebuild/px4_commands.h"
 
 namespace ident {
 namespace {
@@ -251,7 +252,11 @@ FlightLog build(NumberTable table, const Vehicle& vehicle, const std::optional<L
 }  // namespace
 
 FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const std::optional<LogMap>& map) {
-  if (!log_format_of_file(path).empty()) return flight_log_of(read_log_streams(path), vehicle, map);
+  if (!log_format_of_file(path).empty()) {
+    LogStreams log = read_log_streams(path);
+    add_px4_commands(log);
+    return flight_log_of(log, vehicle, map);
+  }
   refuse_no_log(first_bytes(path, kRecognisedFrom), path);
   CsvReader csv(path);
   const LogColumns columns = choose_log_columns(path, csv, vehicle, map);

@@ -169,6 +169,8 @@ class Maker {
     for (const auto& [stream, names] : sources)
       text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", fmt::join(names, " "), stream);
     out_.table.notices.push_back(log_.file + ": " + text);
+    if (const auto commands = log_.facts.find("commands"); commands != log_.facts.end())
+      out_.table.notices.push_back(log_.file + ": " + commands->second);
   }
 
   void tell_damage() {

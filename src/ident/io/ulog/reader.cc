@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <memory>
 
@@ -54,6 +55,7 @@ class Reader {
     }
     read_data(bytes_.size());
     make_streams();
+    name_firmware();
     damage_.close();
     return std::move(out_);
   }
@@ -275,6 +277,15 @@ class Reader {
       set_clock(stream, clock_of(stream), start_, kMicrosecond);
       out_.streams.push_back(std::move(stream));
     }
+  }
+
+  /// ver_sw_release is major, minor, patch and type, a byte each.
+  void name_firmware() {
+    const auto at = out_.facts.find("ver_sw_release");
+    unsigned long release = 0;
+    if (at == out_.facts.end() || std::sscanf(at->second.c_str(), "%lu", &release) != 1) return;
+    out_.facts["firmware"] = fmt::format("{} v{}.{}.{}", out_.facts["sys_name"], release >> 24 & 0xFF,
+                                         release >> 16 & 0xFF, release >> 8 & 0xFF);
   }
 
   /// The instant of the sample, where the topic states it, else that of its publication.
