@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "ident/core/error.h"
 #include "ident/io/log/profiles.h"
@@ -100,6 +101,22 @@ TEST(Profiles, AMapThatNamesWhatIsNotThereIsToldSo) {
     EXPECT_NE(std::string(error.what()).find("mine.yaml:1"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("GyrX"), std::string::npos) << error.what();
   }
+}
+
+TEST(Profiles, ACsvOfTheCrazyfliesClientNeedsNoMap) {
+  const std::string path = ::testing::TempDir() + "/client.csv";
+  std::ofstream file(path);
+  file << "Timestamp,gyro.x,gyro.y,gyro.z,motor.m1,motor.m2,motor.m3,motor.m4\n";
+  for (int i = 0; i < 200; ++i)
+    file << 1000 + 10 * i << ',' << 57 * std::sin(0.3 * i) << ',' << 40 * std::sin(0.2 * i) << ','
+         << 30 * std::cos(0.1 * i) << ',' << 30000 + 1000 * (i % 7) << ',' << 30000 + 900 * (i % 5) << ','
+         << 30000 + 800 * (i % 3) << ',' << 65535 - 700 * (i % 4) << '\n';
+  file.close();
+  const FlightLog log = read_flight_log(path, Vehicle{}, {});
+  ASSERT_EQ(log.delta.size(), 4U);
+  EXPECT_NEAR(log.delta[3][4], 1.0, 1e-9);                             // 65535
+  EXPECT_NEAR(log.t[10] - log.t[0], 0.1, 1e-9);                        // ms
+  EXPECT_NEAR(log.w_B[1][5], -40 * std::sin(1.0) * M_PI / 180, 1e-6);  // deg/s, y to the left
 }
 
 TEST(Profiles, ALogThatNeverFliesIsRefused) {

@@ -34,6 +34,14 @@ std::string_view other_spelling(std::string_view of) {
   return of == "quaternion" ? "angles" : std::string_view();
 }
 
+/// The first of a line and its alternatives whose column is in the header.
+std::optional<MappedColumn> in_header(const MappedColumn& line, const std::vector<std::string>& header) {
+  if (line.stream.empty() && std::ranges::find(header, line.column) != header.end()) return line;
+  for (const MappedColumn& other : line.otherwise)
+    if (auto found = in_header(other, header)) return found;
+  return std::nullopt;
+}
+
 void lay_over(LogMap& map, const LogMap& user) {
   for (const auto& [signal, column] : user.columns) {
     const std::string_view displaced = other_spelling(spelling(signal));
@@ -66,6 +74,20 @@ LogMap map_for_format(std::string_view format, const std::optional<LogMap>& user
   if (!map) map.emplace();
   if (user) lay_over(*map, *user);
   return *map;
+}
+
+std::optional<LogMap> map_for_header(const std::vector<std::string>& header) {
+  for (const ProfileText& profile : profile_texts()) {
+    LogMap map = parse_log_map(std::string(profile.text), "profile " + std::string(profile.name));
+    std::map<std::string, MappedColumn> found;
+    for (const auto& [signal, line] : map.columns)
+      if (const auto column = in_header(line, header)) found[signal] = *column;
+    if (std::ssize(found) - std::ranges::count(found, "t", [](const auto& line) { return line.first; }) < 2)
+      continue;
+    map.columns = std::move(found);
+    return map;
+  }
+  return std::nullopt;
 }
 
 }  // namespace ident

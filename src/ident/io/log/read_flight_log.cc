@@ -259,8 +259,10 @@ FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const
   }
   refuse_no_log(first_bytes(path, kRecognisedFrom), path);
   CsvReader csv(path);
-  const LogColumns columns = choose_log_columns(path, csv, vehicle, map);
-  return build(read_columns(path, csv, columns.columns, {}), vehicle, map, columns);
+  const std::optional<LogMap> used = map ? map : map_for_header(csv.header());
+  LogColumns columns = choose_log_columns(path, csv, vehicle, used);
+  if (used && !map) columns.notices.push_back(path + ": read by the " + used->file);
+  return build(read_columns(path, csv, columns.columns, {}), vehicle, used, columns);
 }
 
 FlightLog flight_log_of(const LogStreams& log, const Vehicle& vehicle, const std::optional<LogMap>& map) {

@@ -24,6 +24,7 @@ class Maker {
   }
 
   StreamTable run() {
+    if (log_.streams.empty()) fail("the log holds no samples");
     count_rotors();
     take_command_range();
     expect_something();
