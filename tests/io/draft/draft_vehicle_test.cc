@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 #include "ident/core/error.h"
 #include "ident/io/draft/frame_geometry.h"
+#include "ident/io/vehicle/vehicle_file.h"
 
 namespace ident {
 namespace {
@@ -28,6 +28,20 @@ TEST(DraftVehicle, SaysWhatALogCannotKnow) {
   EXPECT_NE(draft.yaml.find("mass:"), std::string::npos);
   EXPECT_EQ(draft.fill_in, (std::vector<std::string>{"mass", "positions of the rotors"}));
   EXPECT_NE(draft.yaml.find("command: {min: 1000, max: 2000}"), std::string::npos) << draft.yaml;
+}
+
+TEST(DraftVehicle, ReadsAsAVehicleFile) {
+  const std::string path = ::testing::TempDir() + "/draft.yaml";
+  std::ofstream(path) << draft_of(arducopter(2, 1));
+  const Vehicle vehicle = read_vehicle(path);
+  EXPECT_EQ(vehicle.rotors.size(), 6U);
+  EXPECT_EQ(vehicle.command->max_us, 2000);
+  for (const char* guessed : {"m", "kT", "kQ", "km", "omega_m", "Jxx"})
+    EXPECT_TRUE(vehicle.parameters.at(guessed).std.has_value()) << guessed;
+  // Hover at half the command: the thrust of all rotors at km/2 carries the weight.
+  const double Omega = vehicle.value("km") / 2;
+  EXPECT_NEAR(6 * vehicle.value("kT") * Omega * Omega, 9.81 * vehicle.value("m"),
+              0.02 * 9.81 * vehicle.value("m"));
 }
 
 TEST(DraftVehicle, MotorsOfArduPilotsXFrameSitAsItsDocumentationSays) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/io/draft/assumed_constants.h"
 #include "ident/io/draft/frame_geometry.h"
 
 namespace ident {
@@ -54,7 +55,8 @@ std::string title(const LogStreams& log) {
     if (const std::string value = fact(log, name); !value.empty())
       text += fmt::format(", {} {}", name, value);
   return text +
-         ").\n# FILL IN: what a log cannot know. ASSUMED: a guess; its standard deviation says how wide.\n";
+         ").\n# FILL IN: what a log cannot know. ASSUMED: a guess from the size of published vehicles; its "
+         "std says how wide.\n";
 }
 
 std::string rotor_line(const Rotor& rotor) {
@@ -137,7 +139,8 @@ VehicleDraft draft_vehicle(std::span<const LogStreams> logs) {
         arm);
     draft.fill_in.emplace_back("positions of the rotors");
   }
-  draft.yaml += battery_line(log) + remarks(log);
+  draft.yaml += battery_line(log) + assumed_constants(mass, arm, static_cast<int>(geometry.rotors.size())) +
+                remarks(log);
   for (const LogStreams& other : logs.subspan(1))
     if (!same_place(geometry_of(other), geometry))
       draft.notices.push_back(
