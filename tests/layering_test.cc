@@ -177,5 +177,16 @@ TEST(Layering, EveryEffectIsOneFileAndOneLine) {
   EXPECT_EQ(listed, written);
 }
 
+TEST(Layering, EveryLogFormatIsOneHeaderAndOneLine) {
+  std::set<std::string> listed, written;
+  for (const std::string& header : matches(content(kSource / "src/ident/io/log_formats/log_formats.def"),
+                                           R"(\nIDENT_LOG_FORMAT\(\w+, ([\w/]+),)"))
+    listed.insert(header);
+  for (const fs::path& file : files_below(kSource / "src/ident/io", {".h"}))
+    if (content(file).find("static bool recognises(") != std::string::npos)
+      written.insert(fs::relative(file, kSource / "src/ident/io").replace_extension().string());
+  EXPECT_EQ(listed, written);
+}
+
 }  // namespace
 }  // namespace ident

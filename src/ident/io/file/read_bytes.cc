@@ -38,7 +38,7 @@ void refuse_no_text(const std::string& path, std::string_view first) {
                               "BZh"}))
     refuse("is compressed: unpack it first");
   if (starts_with_any(first, {std::string_view("\x55\x4c\x6f\x67\x01\x12\x35", 7), "\xA3\x95", "\x89MCAP"}))
-    refuse("is a binary flight log, a format that is not read: convert it to CSV first");
+    refuse("is a binary flight log, not a table: 'ident log' says what is in it");
   if (first.substr(0, first.find('\n')).find('\0') != std::string_view::npos)
     refuse("holds NUL bytes: a binary file or UTF-16, no text");
 }

@@ -148,11 +148,12 @@ std::vector<std::string> YamlValue::keys() const {
   return names;
 }
 
-YamlValue load_yaml(const std::string& path) {
-  const std::string text = read_bytes(path, kLargestFile);
-  const YAML::Node root = document(path, text);
-  if (root.IsNull()) throw InputError(path, 0, "", "is empty");
-  return {path, "", root};
+YamlValue load_yaml(const std::string& path) { return parse_yaml(read_bytes(path, kLargestFile), path); }
+
+YamlValue parse_yaml(const std::string& text, const std::string& name) {
+  const YAML::Node root = document(name, text);
+  if (root.IsNull()) throw InputError(name, 0, "", "is empty");
+  return {name, "", root};
 }
 
 }  // namespace ident

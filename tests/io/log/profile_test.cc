@@ -1,0 +1,135 @@
+// Streams of a log become a flight log by a profile, line by line under a user's map.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "ident/core/error.h"
+#include "ident/io/log/profiles.h"
+#include "ident/io/log/read_flight_log.h"
+#include "ident/io/log_formats/read_log_streams.h"
+
+namespace ident {
+namespace {
+
+std::vector<double> times(double from, double step, int count) {
+  std::vector<double> t;
+  for (int i = 0; i < count; ++i) t.push_back(from + step * i);
+  return t;
+}
+
+std::vector<double> wave(const std::vector<double>& t, double mean, double size, double phase) {
+  std::vector<double> values;
+  for (const double s : t) values.push_back(mean + size * std::sin(7 * s + phase));
+  return values;
+}
+
+/// A quadrotor's DataFlash log of 10 s: gyro at 50 Hz, outputs at 10 Hz, in the air from 2 to 8 s. Motor 1 is
+/// on output 3.
+LogStreams dataflash() {
+  LogStreams log{.file = "flight.bin", .format = "dataflash"};
+  const std::vector<double> fast = times(0.0, 0.02, 500), slow = times(0.005, 0.1, 100);
+  LogStream imu{.name = "IMU", .clock = "", .t = fast, .fields = {}};
+  imu.fields = {{"I", "", 1.0, std::vector<std::uint8_t>(500, 0)}, {"GyrX", "", 1.0, wave(fast, 0, 0.5, 0)},
+                {"GyrY", "", 1.0, wave(fast, 0, 0.4, 1)},          {"GyrZ", "", 1.0, wave(fast, 0, 0.3, 2)},
+                {"AccX", "", 1.0, wave(fast, 0, 0.3, 3)},          {"AccY", "", 1.0, wave(fast, 0, 0.3, 4)},
+                {"AccZ", "", 1.0, wave(fast, -9.8, 0.5, 5)}};
+  LogStream out{.name = "RCOU", .clock = "", .t = slow, .fields = {}};
+  for (int n = 1; n <= 4; ++n)
+    out.fields.push_back({"C" + std::to_string(n), "", 1.0, wave(slow, 1500, 100, n)});
+  LogStream events{.name = "EV", .clock = "", .t = {2.0, 8.0}, .fields = {}};
+  events.fields = {{"Id", "", 1.0, std::vector<std::uint8_t>{28, 18}}};
+  log.streams = {imu, out, events};
+  log.parameters = {{"SERVO1_FUNCTION", 34}, {"SERVO2_FUNCTION", 35}, {"SERVO3_FUNCTION", 33},
+                    {"SERVO4_FUNCTION", 36}, {"MOT_PWM_MIN", 1000},   {"MOT_PWM_MAX", 2000}};
+  return log;
+}
+
+std::size_t row_at(const FlightLog& log, double t) {
+  std::size_t i = 0;
+  while (log.t[i] < t - 1e-9) ++i;
+  return i;
+}
+
+TEST(Profiles, EachIsAMapThatReads) {
+  ASSERT_GE(profile_texts().size(), 3U);
+  for (const ProfileText& profile : profile_texts()) {
+    const LogMap map = parse_log_map(std::string(profile.text), std::string(profile.name));
+    EXPECT_FALSE(map.formats.empty()) << profile.name;
+    EXPECT_FALSE(map.columns.empty()) << profile.name;
+  }
+}
+
+TEST(Profiles, MotorsAreFoundByTheFunctionsOfOutputs) {
+  const LogStreams streams = dataflash();
+  const FlightLog log = flight_log_of(streams, Vehicle{}, {});
+  ASSERT_EQ(log.delta.size(), 4U);
+  const double pulse = streams.find("RCOU")->find("C3")->at(40);  // output 3 is motor 1
+  EXPECT_NEAR(log.delta[0][row_at(log, 4.005)], (pulse - 1000) / 1000, 1e-12);
+}
+
+TEST(Profiles, EachSignalKeepsItsOwnTimes) {
+  const FlightLog log = flight_log_of(dataflash(), Vehicle{}, {});
+  EXPECT_EQ(log.rows(), 600U);  // 500 and 100 instants, none in common
+  EXPECT_TRUE(std::isnan(log.w_B[0][row_at(log, 4.005)]));
+  EXPECT_NEAR(log.w_B[0][row_at(log, 4.0)], 0.5 * std::sin(7 * 4.0), 1e-12);
+}
+
+TEST(Profiles, OnlyTheTimeInTheAirIsUsed) {
+  const FlightLog log = flight_log_of(dataflash(), Vehicle{}, {});
+  ASSERT_EQ(log.windows.size(), 1U);
+  EXPECT_DOUBLE_EQ(log.windows[0][0], 2.0);
+  EXPECT_DOUBLE_EQ(log.windows[0][1], 8.0);
+}
+
+TEST(Profiles, AMapOverridesSingleLines) {
+  const LogMap user = parse_log_map(
+      "columns: {p: {stream: IMU, column: GyrY, unit: deg/s}, q: null}\nwindows: [[3, 5]]\n", "mine.yaml");
+  const FlightLog log = flight_log_of(dataflash(), Vehicle{}, user);
+  EXPECT_NEAR(log.w_B[0][row_at(log, 4.0)], 0.4 * std::sin(7 * 4.0 + 1) * M_PI / 180, 1e-12);
+  EXPECT_TRUE(std::isnan(log.w_B[1][row_at(log, 4.0)]));
+  EXPECT_NEAR(log.w_B[2][row_at(log, 4.0)], 0.3 * std::sin(7 * 4.0 + 2), 1e-12);
+  EXPECT_DOUBLE_EQ(log.windows[0][0], 3.0);
+}
+
+TEST(Profiles, AMapThatNamesWhatIsNotThereIsToldSo) {
+  const LogMap user = parse_log_map("columns: {p: {stream: IMU, column: GyroX}}\n", "mine.yaml");
+  try {
+    flight_log_of(dataflash(), Vehicle{}, user);
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("mine.yaml:1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("GyrX"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Profiles, ACsvOfTheCrazyfliesClientNeedsNoMap) {
+  const std::string path = ::testing::TempDir() + "/client.csv";
+  std::ofstream file(path);
+  file << "Timestamp,gyro.x,gyro.y,gyro.z,motor.m1,motor.m2,motor.m3,motor.m4\n";
+  for (int i = 0; i < 200; ++i)
+    file << 1000 + 10 * i << ',' << 57 * std::sin(0.3 * i) << ',' << 40 * std::sin(0.2 * i) << ','
+         << 30 * std::cos(0.1 * i) << ',' << 30000 + 1000 * (i % 7) << ',' << 30000 + 900 * (i % 5) << ','
+         << 30000 + 800 * (i % 3) << ',' << 65535 - 700 * (i % 4) << '\n';
+  file.close();
+  const FlightLog log = read_flight_log(path, Vehicle{}, {});
+  ASSERT_EQ(log.delta.size(), 4U);
+  EXPECT_NEAR(log.delta[3][4], 1.0, 1e-9);                             // 65535
+  EXPECT_NEAR(log.t[10] - log.t[0], 0.1, 1e-9);                        // ms
+  EXPECT_NEAR(log.w_B[1][5], -40 * std::sin(1.0) * M_PI / 180, 1e-6);  // deg/s, y to the left
+}
+
+TEST(Profiles, ALogThatNeverFliesIsRefused) {
+  LogStreams log = dataflash();
+  log.streams[2].fields[0].values = std::vector<std::uint8_t>{18, 18};
+  EXPECT_THROW(flight_log_of(log, Vehicle{}, {}), DataError);
+}
+
+TEST(Profiles, MoreMotorsThanTheVehicleHasAreAnError) {
+  Vehicle three;
+  three.rotors.resize(3);
+  EXPECT_THROW(flight_log_of(dataflash(), three, {}), InputError);
+}
+
+}  // namespace
+}  // namespace ident
