@@ -42,8 +42,10 @@ void ColumnStore::flush() {
     std::visit(
         [&](auto& values) {
           using Value = typename std::decay_t<decltype(values)>::value_type;
+          const std::size_t begin = values.size();
+          values.resize(begin + in_block_);
           for (std::size_t row = 0; row < in_block_; ++row)
-            values.push_back(static_cast<Value>(block_[row * width + column]));
+            values[begin + row] = static_cast<Value>(block_[row * width + column]);
         },
         fields_[column].values);
   written_ += in_block_;

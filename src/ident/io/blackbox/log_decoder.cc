@@ -42,6 +42,7 @@ void LogDecoder::run(FrameSink& sink) {
 void LogDecoder::take_frame(std::uint8_t letter, FrameSink& sink) {
   const std::size_t begin = in_.at++;
   if (!is_frame_kind(letter)) return lose_synchronisation(begin, sink);
+  unknown_event_ = false;
   parse(static_cast<char>(letter));
   if (in_.at - begin - 1 > longest_frame) {
     ++in_.at;
@@ -52,7 +53,7 @@ void LogDecoder::take_frame(std::uint8_t letter, FrameSink& sink) {
 
 void LogDecoder::lose_synchronisation(std::size_t byte, FrameSink& sink) {
   valid_ = false;
-  sink.synchronisation_lost(byte);
+  sink.synchronisation_lost(byte, unknown_event_ ? LossCause::unknown_event : LossCause::damage);
 }
 
 void LogDecoder::parse(char kind) {
@@ -107,6 +108,7 @@ void LogDecoder::parse_event() {
       event_.reset();  // bytes that happened to look like the end
       return;
     default:
+      unknown_event_ = event_->kind == EventKind::disarm || event_->kind == EventKind::flight_mode;
       event_.reset();
   }
 }
@@ -143,7 +145,7 @@ void LogDecoder::complete_main(bool intra, FrameSink& sink) {
   if (!believed && (intra || valid_)) {
     valid_ = false;
     previous_ = before_previous_ = nullptr;
-    sink.synchronisation_lost(in_.at);
+    sink.synchronisation_lost(in_.at, LossCause::damage);
   }
   if (!believed) return;
   valid_ = true;

@@ -31,6 +31,10 @@ struct Event {
   double b = 0.0;
 };
 
+/// Events that blackbox_decode does not know (disarming, change of flight mode) cost it the frames after
+/// them.
+enum class LossCause : std::uint8_t { damage, unknown_event };
+
 /// Takes the frames of one log in the order of the file. Only valid frames are given.
 class FrameSink {
  public:
@@ -40,7 +44,7 @@ class FrameSink {
   virtual void gps_frame(const Row& row) = 0;
   virtual void event(const Event& event) = 0;
   /// Main frames are not valid from here to the next intra frame. `byte` counts from the start of the log.
-  virtual void synchronisation_lost(std::size_t byte) = 0;
+  virtual void synchronisation_lost(std::size_t byte, LossCause cause) = 0;
   /// The log stops at `byte` without the event that closes it.
   virtual void ends_early(std::size_t byte, std::string_view reason) = 0;
 };
@@ -91,7 +95,8 @@ class LogDecoder {
   std::array<std::int64_t, 2> home_position_{};
   bool home_is_known_ = false;
   std::optional<Event> event_;
-  bool closed_ = false;  ///< the event at the end of a log was read
+  bool unknown_event_ = false;  ///< the bytes that follow belong to an event that was not understood
+  bool closed_ = false;         ///< the event at the end of a log was read
 };
 
 }  // namespace ident::blackbox

@@ -68,9 +68,9 @@ void LogRecorder::event(const Event& event) {
   event_t_.push_back(seconds(last_time_us_));
 }
 
-void LogRecorder::synchronisation_lost(std::size_t byte) {
+void LogRecorder::synchronisation_lost(std::size_t byte, LossCause cause) {
   gap_open_ = true;
-  if (losses_++ == 0) first_loss_ = byte;
+  if (cause == LossCause::damage && losses_++ == 0) first_loss_ = byte;
 }
 
 void LogRecorder::ends_early(std::size_t byte, std::string_view reason) {
@@ -102,7 +102,7 @@ double LogRecorder::add_to(LogStreams& streams, int number, double begin) {
   for (const auto& [from, until] : gaps_) streams.dropouts.push_back({begin + from, begin + until});
   if (losses_ > 0)
     streams.damage.push_back(
-        fmt::format("log {}: {} places where no frame could be read, the first at its byte {}; "
+        fmt::format("log {}: {} bytes or frames could not be read, the first at its byte {}; "
                     "main frames go on at the next intra frame",
                     number, losses_, first_loss_));
   if (!early_end_.empty()) streams.damage.push_back(fmt::format("log {}: {}", number, early_end_));

@@ -22,7 +22,7 @@ class LogRecorder : public FrameSink {
   void slow_frame(const Row& row) override;
   void gps_frame(const Row& row) override;
   void event(const Event& event) override;
-  void synchronisation_lost(std::size_t byte) override;
+  void synchronisation_lost(std::size_t byte, LossCause cause) override;
   void ends_early(std::size_t byte, std::string_view reason) override;
 
   std::size_t main_frames() const { return main_.rows(); }
