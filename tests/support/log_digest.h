@@ -8,13 +8,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "ident/data/log_streams.h"
 
 namespace ident {
 
-inline std::vector<std::uint8_t> bytes_of(const std::string& path) {
+inline std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -42,7 +41,8 @@ inline long digest_differences(const LogStream& stream, const nlohmann::json& di
     const double last = field->at(field->size() - 1);
     for (const auto& [cell, value] : {std::pair{"n", n}, {"first", first}, {"last", last}, {"sum", sum}})
       if (!same(cells.at(cell), value)) {
-        ADD_FAILURE() << stream.name << " " << name << " " << cell << ": " << value << ", expected " << cells.at(cell);
+        ADD_FAILURE() << stream.name << " " << name << " " << cell << ": " << value << ", expected "
+                      << cells.at(cell);
         ++differences;
       }
   }

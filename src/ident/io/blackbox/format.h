@@ -1,8 +1,6 @@
 // Reads blackbox files of Betaflight, INAV and Cleanflight (.bbl, .bfl, .txt): every log that a file holds.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,9 +13,8 @@ namespace ident {
 /// clock is put behind the one before it. Header lines become parameters (numbers; `motorOutput[0]` for
 /// lists) and facts (texts); of later logs only those that differ, as `2:looptime`.
 struct BlackboxFormat {
-  static constexpr std::string_view name = "blackbox";
-  static bool recognises(std::span<const std::uint8_t> first_bytes);
-  static LogStreams read(std::span<const std::uint8_t> bytes, const std::string& file);
+  static bool recognises(std::string_view first);
+  static LogStreams read(std::string_view bytes, const std::string& file);
 };
 
 }  // namespace ident

@@ -1,5 +1,5 @@
 // Reads blackbox files of Betaflight, INAV and Cleanflight (.bbl, .bfl, .txt): every log that a file holds.
-#include "ident/io/blackbox/blackbox_format.h"
+#include "ident/io/blackbox/format.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,6 @@ namespace {
 using namespace blackbox;
 
 constexpr std::string_view start_line = "H Product:Blackbox flight data recorder by Nicholas Sherlock\n";
-constexpr std::string_view recognised_start = "H Product:Blackbox";
 
 /// The bytes of each log: from its first header line to that of the next.
 std::vector<std::span<const std::uint8_t>> split_logs(std::span<const std::uint8_t> bytes) {
@@ -83,13 +82,11 @@ class FileReader {
 
 }  // namespace
 
-bool BlackboxFormat::recognises(std::span<const std::uint8_t> first_bytes) {
-  return first_bytes.size() >= recognised_start.size() &&
-         std::equal(recognised_start.begin(), recognised_start.end(), first_bytes.begin());
-}
+bool BlackboxFormat::recognises(std::string_view first) { return first.starts_with("H Product:Blackbox"); }
 
-LogStreams BlackboxFormat::read(std::span<const std::uint8_t> bytes, const std::string& file) {
-  LogStreams streams{.file = file, .format = std::string(name)};
+LogStreams BlackboxFormat::read(std::string_view text, const std::string& file) {
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  LogStreams streams{.file = file, .format = "blackbox"};
   FileReader reader(streams);
   int number = 0;
   for (const auto& log : split_logs(bytes)) reader.read(log, ++number);

@@ -1,7 +1,7 @@
 // Blackbox logs of real flights against the digests of blackbox_decode's output.
 #include <filesystem>
 
-#include "ident/io/blackbox/blackbox_format.h"
+#include "ident/io/blackbox/format.h"
 #include "support/log_digest.h"
 #include "support/mangled.h"
 #include "support/real_data.h"
@@ -41,8 +41,8 @@ TEST(BlackboxReader, PrefixesAndFlippedBitsOfSamplesAreReadOrRefusedInTime) {
   IDENT_NEEDS_REAL_DATA(folder);
   for (const std::string& path : samples(folder)) {
     SCOPED_TRACE(path);
-    const std::vector<std::uint8_t> bytes = bytes_of(path);
-    const auto read = [&](std::span<const std::uint8_t> damaged) {
+    const std::string bytes = bytes_of(path);
+    const auto read = [&](std::string_view damaged) {
       expect_even_columns(BlackboxFormat::read(damaged, path));
     };
     const double whole = seconds_of([&] { read(bytes); });
