@@ -1,21 +1,14 @@
-// Where recordings lie that the project does not ship: IDENT_REAL_DATA, default ../shared/data beside the
-// project.
+// Vehicles of recordings that the project does not ship.
 #pragma once
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <tuple>
 
 #include "ident/io/log/read_flight_log.h"
 #include "ident/model/vehicle.h"
+#include "support/real_data_folder.h"
 
 namespace ident {
-
-inline std::string real_data_folder() {
-  const char* named = std::getenv("IDENT_REAL_DATA");
-  return named ? named : std::string(IDENT_SOURCE_DIR) + "/../shared/data";
-}
 
 /// The rotors of the brushed Crazyflie of arplab_crazyflie, in the order of its motor columns; no constants.
 inline Vehicle arplab_crazyflie() {
@@ -60,9 +53,3 @@ inline FlightLog crazypad_flight(const std::string& folder, const std::string& n
 }
 
 }  // namespace ident
-
-/// Defines `folder`, or skips the test.
-#define IDENT_NEEDS_REAL_DATA(folder)                   \
-  const std::string folder = ident::real_data_folder(); \
-  if (!std::filesystem::is_directory(folder))           \
-  GTEST_SKIP() << "no recordings in " << folder << " (set IDENT_REAL_DATA)"

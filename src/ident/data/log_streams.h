@@ -39,7 +39,9 @@ struct StreamField {
 struct LogStream {
   std::string name;   ///< as the format calls it, instance included: `vehicle_attitude:0`, `RATE`, `1:main`
   std::string clock;  ///< field that `t` was made from; empty where times were counted
-  std::vector<double> t;  ///< s from the log's start, not decreasing
+  /// s on the log's clock, which counts from the start of the log or of the autopilot. It goes back where the
+  /// file is damaged or the clock was set.
+  std::vector<double> t;
   std::vector<StreamField> fields;
 
   const StreamField* find(std::string_view field) const {
@@ -47,6 +49,13 @@ struct LogStream {
       if (f.name == field) return &f;
     return nullptr;
   }
+};
+
+/// A parameter that was set while the log was being written.
+struct ParameterChange {
+  double t = 0.0;  ///< s on the log's clock
+  std::string name;
+  double value = 0.0;
 };
 
 /// A log as its file holds it. Readers fill this; profiles make a `FlightLog` of it.
@@ -58,6 +67,7 @@ struct LogStreams {
   std::map<std::string, std::string> facts;     ///< firmware, vehicle id, header lines, text parameters
   std::vector<std::array<double, 2>> dropouts;  ///< [from, until) s in which samples were lost
   std::vector<std::string> damage;              ///< what could not be read, with byte and reason
+  std::vector<ParameterChange> parameter_changes;
 
   const LogStream* find(std::string_view name) const {
     for (const LogStream& s : streams)
