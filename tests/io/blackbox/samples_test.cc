@@ -4,7 +4,7 @@
 #include "ident/io/blackbox/format.h"
 #include "support/log_digest.h"
 #include "support/mangled.h"
-#include "support/real_data.h"
+#include "support/real_data_folder.h"
 
 namespace ident {
 namespace {

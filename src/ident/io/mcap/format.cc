@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "ident/core/error.h"
-#include "ident/io/mcap/crc32.h"
 #include "ident/io/mcap/decompress.h"
 #include "ident/io/mcap/records.h"
+#include "ident/io/packed/crc32.h"
+#include "ident/io/packed/damage.h"
 #include "ident/io/ros2/topic.h"
 
 namespace ident {
@@ -19,8 +20,6 @@ namespace {
 using namespace mcap;
 
 constexpr std::string_view magic = "\x89MCAP0\r\n";
-/// Notes on damage that a user is shown.
-constexpr std::size_t most_notes = 20;
 
 struct Schema {
   std::string name;
@@ -30,7 +29,7 @@ struct Schema {
 
 class McapReader {
  public:
-  explicit McapReader(LogStreams& streams) : streams_(streams) {}
+  explicit McapReader(LogStreams& streams) : streams_(streams), damage_(streams.damage) {}
 
   void read(Bytes bytes) {
     std::size_t at = magic.size();
@@ -39,28 +38,21 @@ class McapReader {
         closed_ = true;
         break;
       }
-      if (!record->whole) note(at, "the file ends within a record");
+      if (!record->whole) damage_.add(at, "the file ends within a record");
       if (record->op == Op::chunk)
         read_chunk(*record, at);
       else if (record->whole)
         read_record(*record, at);
       at = record->end;
     }
-    if (!closed_) note(at, "the file was not closed");
+    if (!closed_) damage_.add(at, "the file was not closed");
+    damage_.close();
     for (const auto& [topic, why] : not_read_)
       streams_.damage.push_back(fmt::format("topic {} is not read: {}", topic, why));
-    if (notes_left_out_ > 0) streams_.damage.push_back(fmt::format("and {} more places", notes_left_out_));
     ros2::add_topics(topics_, streams_);
   }
 
  private:
-  void note(std::size_t byte, std::string_view what) {
-    if (streams_.damage.size() < most_notes)
-      streams_.damage.push_back(fmt::format("byte {}: {}", byte, what));
-    else
-      ++notes_left_out_;
-  }
-
   void read_record(const Record& record, std::size_t at) {
     RecordReader in(record.content);
     switch (record.op) {
@@ -83,7 +75,7 @@ class McapReader {
       default:
         break;
     }
-    if (!in.ok()) note(at, "a record is shorter than its fields");
+    if (!in.ok()) damage_.add(at, "a record is shorter than its fields");
   }
 
   void read_chunk(const Record& record, std::size_t at) {
@@ -94,19 +86,19 @@ class McapReader {
     const auto checksum = in.number<std::uint32_t>();
     const std::string_view compression = in.string();
     const auto packed_size = in.number<std::uint64_t>();
-    if (!in.ok()) return note(at, "a chunk is shorter than its head");
+    if (!in.ok()) return damage_.add(at, "a chunk is shorter than its head");
     const Bytes packed = in.rest().first(std::min<std::uint64_t>(packed_size, in.rest().size()));
     if (compression.empty()) return read_records(packed, at, record.whole ? checksum : 0);
     const Unpacked unpacked = decompress(compression, packed, size);
     if (!unpacked.problem.empty() && record.whole)
-      note(at, "a chunk cannot be unpacked: " + unpacked.problem);
+      damage_.add(at, "a chunk cannot be unpacked: " + unpacked.problem);
     read_records(unpacked.bytes, at, unpacked.problem.empty() && record.whole ? checksum : 0);
   }
 
   /// Records of a chunk. One that does not have its checksum (0: none was made) is left out.
   void read_records(Bytes records, std::size_t chunk, std::uint32_t checksum) {
-    if (checksum != 0 && crc32(records) != checksum)
-      return note(chunk, "a chunk does not have its checksum and is left out");
+    if (checksum != 0 && crc32({reinterpret_cast<const char*>(records.data()), records.size()}) != checksum)
+      return damage_.add(chunk, "a chunk does not have its checksum and is left out");
     std::size_t at = 0;
     while (const auto record = record_at(records, at)) {
       if (record->whole && record->op != Op::chunk) read_record(*record, chunk);
@@ -171,7 +163,7 @@ class McapReader {
     if (last_place_ == no_topic || channel != last_channel_) {
       const auto place = channels_.find(channel);
       if (place == channels_.end())
-        return note(at, fmt::format("a message of channel {}, which is not described", channel));
+        return damage_.add(at, fmt::format("a message of channel {}, which is not described", channel));
       last_channel_ = channel;
       last_place_ = place->second;
     }
@@ -191,6 +183,7 @@ class McapReader {
   static constexpr std::size_t no_topic = static_cast<std::size_t>(-1);
 
   LogStreams& streams_;
+  DamageNotes damage_;
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, std::size_t> channels_;
   std::map<std::pair<std::string, std::uint16_t>, std::size_t> topic_places_;
@@ -199,7 +192,6 @@ class McapReader {
   std::map<std::string, std::string> not_read_;
   std::uint16_t last_channel_ = 0;
   std::size_t last_place_ = no_topic;
-  std::size_t notes_left_out_ = 0;
   bool closed_ = false;
 };
 
