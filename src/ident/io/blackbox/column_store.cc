@@ -8,7 +8,8 @@ namespace ident::blackbox {
 
 namespace {
 
-constexpr std::size_t rows_of_block = 256;  // a block of 50 columns is 100 kB: it stays in the cache
+// A block of 50 columns then is 100 kB: it stays in the cache. Short logs begin with less.
+constexpr std::size_t most_rows_of_block = 256;
 
 StoredValues empty_values(Stored stored) {
   switch (stored) {
@@ -28,11 +29,16 @@ ColumnStore::ColumnStore(std::vector<ColumnKind> columns) {
   fields_.reserve(columns.size());
   for (ColumnKind& kind : columns)
     fields_.push_back({std::move(kind.name), std::move(kind.unit), kind.scale, empty_values(kind.stored)});
-  block_.resize(rows_of_block * fields_.size());
+  block_.resize(rows_of_block_ * fields_.size());
 }
 
 std::span<std::int64_t> ColumnStore::next_row() {
-  if (in_block_ == rows_of_block) flush();
+  if (in_block_ == rows_of_block_ && rows_of_block_ < most_rows_of_block) {
+    rows_of_block_ *= 2;
+    block_.resize(rows_of_block_ * fields_.size());
+  } else if (in_block_ == rows_of_block_) {
+    flush();
+  }
   return std::span(block_).subspan(fields_.size() * in_block_++, fields_.size());
 }
 

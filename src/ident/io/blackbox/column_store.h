@@ -36,6 +36,7 @@ class ColumnStore {
 
   std::vector<StreamField> fields_;
   std::vector<std::int64_t> block_;  ///< row after row
+  std::size_t rows_of_block_ = 8;    ///< grows with the log
   std::size_t in_block_ = 0;
   std::size_t written_ = 0;
 };
