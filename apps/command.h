@@ -39,6 +39,8 @@ struct Context {
   /// Hashes of large inputs, found beside the work.
   std::map<std::string, std::future<std::string>> hashes;
   Shown shown = Shown::pictures;  ///< of the result
+  /// Text for standard output in place of the result: a file that was drafted, a summary of fixed form.
+  std::string print;
   /// Files to write. They appear together after the command has succeeded, or not at all.
   Outputs outputs;
 };

@@ -46,6 +46,7 @@ void print(const std::string& text) {
 }
 
 std::string terminal_text(const Result& result, const Context& context) {
+  if (!context.print.empty()) return context.print;
   std::string text = render_text(result, {.colour = colour_wanted()});
   if (const std::string next = next_command(result, context); !next.empty()) text += "Next: " + next + "\n";
   return text;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "ident/core/error.h"
 #include "ident/io/packed/crc32.h"
@@ -37,8 +38,7 @@ struct Event {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, const std::string& file)
-      : bytes_(bytes), damage_(out_.damage), event_of_(65536, -1) {
+  Reader(std::string_view bytes, const std::string& file) : bytes_(bytes), damage_(out_.damage) {
     out_.file = file;
     out_.format = "crazyflie";
   }
@@ -78,8 +78,7 @@ class Reader {
     const int count = take<std::uint16_t>();
     for (int i = 0; i < count; ++i) {
       const auto id = take<std::uint16_t>();
-      if (event_of_[id] >= 0) fail(fmt::format("event {} is described twice", id));
-      event_of_[id] = static_cast<int>(events_.size());
+      if (!event_of_.emplace(id, events_.size()).second) fail(fmt::format("event {} is described twice", id));
       events_.push_back(read_event());
     }
   }
@@ -110,14 +109,21 @@ class Reader {
 
   void read_records() {
     const std::size_t end = check_sum_is_right() ? bytes_.size() - kCheckSum : bytes_.size();
+    Event* last = nullptr;
+    std::uint16_t last_id = 0;
     while (end - at_ >= kEventId) {
       const auto id = load<std::uint16_t>(bytes_.data() + at_);
-      if (event_of_[id] < 0) {
+      if (last == nullptr || id != last_id) {
+        const auto known = event_of_.find(id);
+        last = known == event_of_.end() ? nullptr : &events_[known->second];
+        last_id = id;
+      }
+      if (last == nullptr) {
         if (end - at_ > kCheckSum)
           damage_.add(at_, fmt::format("event {} is not described: what follows cannot be read", id));
         return;
       }
-      Event& event = events_[static_cast<std::size_t>(event_of_[id])];
+      Event& event = *last;
       if (end - at_ < kEventId + event.size) return;  // the last one, not written whole
       event.begins.push_back(at_ + kEventId);
       at_ += kEventId + event.size;
@@ -146,7 +152,7 @@ class Reader {
   std::size_t at_ = 0;
   int version_ = 0;
   std::vector<Event> events_;
-  std::vector<int> event_of_;  ///< index by id
+  std::map<std::uint16_t, std::size_t> event_of_;  ///< index by id
 };
 
 }  // namespace

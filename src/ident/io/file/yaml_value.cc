@@ -109,12 +109,13 @@ std::vector<std::string> YamlValue::keys() const {
   return names;
 }
 
-YamlValue load_yaml(const std::string& path) {
-  const std::string text = read_bytes(path, kLargestFile);
-  const std::vector<YAML::Node> all = documents(path, text);
-  if (all.empty() || all.front().IsNull()) throw InputError(path, 0, "", "is empty");
-  if (all.size() > 1) throw InputError(path, 0, "", "holds more than one YAML document");
-  return {path, "", all.front()};
+YamlValue load_yaml(const std::string& path) { return parse_yaml(read_bytes(path, kLargestFile), path); }
+
+YamlValue parse_yaml(const std::string& text, const std::string& name) {
+  const std::vector<YAML::Node> all = documents(name, text);
+  if (all.empty() || all.front().IsNull()) throw InputError(name, 0, "", "is empty");
+  if (all.size() > 1) throw InputError(name, 0, "", "holds more than one YAML document");
+  return {name, "", all.front()};
 }
 
 }  // namespace ident

@@ -50,4 +50,7 @@ class YamlValue {
 /// The one document of a YAML file; throws InputError.
 YamlValue load_yaml(const std::string& path);
 
+/// The same for text; `name` stands for the file in messages.
+YamlValue parse_yaml(const std::string& text, const std::string& name);
+
 }  // namespace ident

@@ -1,58 +1,20 @@
 // Reads map files.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
-
-#include "ident/core/nearest_word.h"
 #include "ident/io/file/yaml_value.h"
-#include "ident/io/log/log_signals.h"
+#include "ident/io/log/mapped_columns.h"
 #include "ident/io/log/read_flight_log.h"
 
 namespace ident {
 namespace {
 
-const std::vector<std::string> kMapKeys = {"columns", "frames", "windows"};
-const std::vector<std::string> kColumnKeys = {"column", "unit", "scale", "offset"};
+const std::vector<std::string> kMapKeys = {"columns",  "frames",  "windows", "formats",
+                                           "airborne", "outputs", "command"};
 const std::vector<std::string> kFrameKeys = {"body", "world"};
-
-bool is_signal(const std::string& name) {
-  return std::ranges::any_of(log_signals(kMostRotors),
-                             [&](const LogSignal& s) { return s.signal.name == name; });
-}
-
-std::vector<std::string> signal_names() {
-  std::vector<std::string> names;
-  for (const LogSignal& s : log_signals(4)) names.push_back(s.signal.name);
-  return names;
-}
-
-MappedColumn read_column(const YamlValue& value) {
-  MappedColumn mapped;
-  mapped.line = value.line();
-  if (value.is_null()) return mapped;
-  if (!value.is_map()) {
-    mapped.column = value.text();
-  } else {
-    value.expect_map(kColumnKeys);
-    mapped.column = value.at("column").text();
-    if (value.has("unit")) mapped.unit = value.at("unit").text();
-    if (value.has("scale")) mapped.scale = value.at("scale").number();
-    if (value.has("offset")) mapped.offset = value.at("offset").number();
-    if (mapped.scale == 0.0) value.at("scale").fail("is zero");
-  }
-  if (mapped.column.empty()) value.fail("names no column");
-  return mapped;
-}
-
-/// `rpm2` is another spelling of `omega2`, with its unit.
-void read_signal(const YamlValue& value, const std::string& name, LogMap& map) {
-  const bool is_rpm = name.starts_with("rpm");
-  const std::string signal = is_rpm ? "omega" + name.substr(3) : name;
-  if (!is_signal(signal)) value.fail("is no signal of a flight log" + did_you_mean(name, signal_names()));
-  MappedColumn mapped = read_column(value);
-  if (is_rpm && mapped.unit.empty()) mapped.unit = "rpm";
-  if (!map.columns.emplace(signal, mapped).second) value.fail("is given twice: " + signal + " is the same");
-}
+const std::vector<std::string> kAirborneKeys = {"stream", "column", "is", "from", "until", "commands_above"};
+const std::vector<std::string> kOutputKeys = {"function", "motors"};
+const std::vector<std::string> kCommandKeys = {"min", "max"};
 
 template <class Frame>
 Frame read_frame(const YamlValue& value, std::optional<Frame> (*find)(const std::string&),
@@ -70,29 +32,76 @@ std::array<double, 2> read_window(const YamlValue& value) {
   return window;
 }
 
-}  // namespace
+std::vector<std::string> words(const YamlValue& value) {
+  if (!value.is_list()) return {value.text()};
+  std::vector<std::string> list;
+  for (const YamlValue& one : value.list()) list.push_back(one.text());
+  return list;
+}
 
-LogMap read_log_map(const std::string& path) {
-  const YamlValue file = load_yaml(path);
+AirborneRule read_airborne(const YamlValue& value) {
+  value.expect_map(kAirborneKeys);
+  AirborneRule rule;
+  if (value.has("commands_above")) {
+    rule.commands_above = value.at("commands_above").number();
+    return rule;
+  }
+  rule.stream = value.at("stream").text();
+  rule.column = value.at("column").text();
+  if (value.has("is")) {
+    rule.is = value.at("is").number();
+  } else {
+    rule.from = value.at("from").number();
+    rule.until = value.at("until").number();
+  }
+  return rule;
+}
+
+/// What only profiles state.
+void read_profile_keys(const YamlValue& file, LogMap& map) {
+  if (file.has("formats")) map.formats = words(file.at("formats"));
+  if (file.has("airborne"))
+    for (const YamlValue& rule : file.at("airborne").list()) map.airborne.push_back(read_airborne(rule));
+  if (file.has("outputs")) {
+    const YamlValue outputs = file.at("outputs");
+    outputs.expect_map(kOutputKeys);
+    map.output_function = outputs.at("function").text();
+    for (const YamlValue& value : outputs.at("motors").list()) map.motor_functions.push_back(value.number());
+  }
+  if (file.has("command")) {
+    const YamlValue command = file.at("command");
+    command.expect_map(kCommandKeys);
+    map.command = {words(command.at("min")), words(command.at("max"))};
+  }
+}
+
+LogMap map_of(const YamlValue& file) {
   file.expect_map(kMapKeys);
   LogMap map;
-  map.file = path;
-  if (file.has("columns")) {
-    const YamlValue columns = file.at("columns");
-    columns.expect_map();
-    for (const std::string& name : columns.keys()) read_signal(columns.at(name), name, map);
-  }
+  map.file = file.file();
+  if (file.has("columns")) read_mapped_columns(file.at("columns"), map);
   if (file.has("frames")) {
     const YamlValue frames = file.at("frames");
     frames.expect_map(kFrameKeys);
-    if (frames.has("body")) map.body = read_frame(frames.at("body"), &body_frame, body_frame_names());
-    if (frames.has("world")) map.world = read_frame(frames.at("world"), &world_frame, world_frame_names());
+    map.states_body = frames.has("body");
+    map.states_world = frames.has("world");
+    if (map.states_body) map.body = read_frame(frames.at("body"), &body_frame, body_frame_names());
+    if (map.states_world) map.world = read_frame(frames.at("world"), &world_frame, world_frame_names());
   }
   if (file.has("windows")) {
     map.windows_line = file.at("windows").line();
     for (const YamlValue& window : file.at("windows").list()) map.windows.push_back(read_window(window));
   }
+  read_profile_keys(file, map);
   return map;
+}
+
+}  // namespace
+
+LogMap read_log_map(const std::string& path) { return map_of(load_yaml(path)); }
+
+LogMap parse_log_map(const std::string& text, const std::string& name) {
+  return map_of(parse_yaml(text, name));
 }
 
 }  // namespace ident

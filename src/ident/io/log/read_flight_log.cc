@@ -1,4 +1,4 @@
-// Reads a flight log: columns, time, units, frames, checks.
+// Reads a flight log, CSV or streams: columns, time, units, frames, checks.
 #include "ident/io/log/read_flight_log.h"
 
 #include <fmt/format.h>
@@ -8,58 +8,24 @@
 
 #include "ident/core/error.h"
 #include "ident/io/csv/table_checks.h"
+#include "ident/io/file/whole_file.h"
 #include "ident/io/log/log_attitude.h"
 #include "ident/io/log/log_columns.h"
 #include "ident/io/log/log_quaternion.h"
 #include "ident/io/log/log_signals.h"
+#include "ident/io/log/log_times.h"
+#include "ident/io/log/profiles.h"
+#include "ident/io/log/stream_table.h"
 #include "ident/io/log_cleaning/log_checks.h"
 #include "ident/io/log_cleaning/log_jumps.h"
 #include "ident/io/log_cleaning/log_spikes.h"
+#include "ident/io/log_formats/read_log_streams.h"
+#include "ident/io/log_formats/refusals.h"
 
 namespace ident {
 namespace {
 
 using Rows = std::vector<double>;
-
-/// Cells of rows with the same time stamp, as logs of mixed rates have them, put into the first of these
-/// rows.
-void merge_repeated(NumberTable& table, const std::vector<std::size_t>& keep,
-                    std::vector<std::size_t>& rows) {
-  const Rows t = *table.find("t");
-  for (const std::size_t i : keep) {
-    if (rows.empty() || t[i] != t[rows.back()]) {
-      rows.push_back(i);
-      continue;
-    }
-    for (Column& column : table.columns) {
-      double& first = column.values[rows.back()];
-      if (std::isnan(first)) first = column.values[i];
-    }
-  }
-}
-
-// Gives the times after which the clock was set back.
-std::vector<double> put_time_in_order(NumberTable& table) {
-  const TimeOrder order = time_order(table.file, *table.find("t"), table.line);
-  for (const Warning& warning : time_warnings(table.file, order)) table.warnings.push_back(warning);
-  std::vector<std::size_t> rows;
-  merge_repeated(table, order.keep, rows);
-  if (rows.size() < table.rows()) keep_rows(table, rows);
-  return order.breaks;
-}
-
-// Seconds since 1970 leave a double too few digits for what lies between two rows: then times count from the
-// first whole second. Gives that.
-double count_from_begin(NumberTable& table, std::vector<double>& breaks) {
-  constexpr double kLong = 1e5;  // s, of which a double tells some picoseconds
-  std::vector<double>& t = std::ranges::find(table.columns, std::string("t"), &Column::name)->values;
-  const double first = t.empty() || !(std::abs(t.front()) > kLong) ? 0.0 : std::floor(t.front());
-  if (first == 0) return first;
-  for (double& one : t) one -= first;
-  for (double& one : breaks) one -= first;
-  table.notices.push_back(fmt::format("{}: times count from {:.0f} s of the log", table.file, first));
-  return first;
-}
 
 class Builder {
  public:
@@ -137,7 +103,9 @@ class Builder {
       log_.notices.push_back(log_.file + ": commands are there twice; delta1.. is used, u1.. is not");
     std::vector<std::vector<double>> delta;
     for (int i = 1; i <= n; ++i) {
-      Rows values = held(column(fmt::format("{}{}", normalised ? "delta" : "u", i)));
+      const Rows given = column(fmt::format("{}{}", normalised ? "delta" : "u", i));
+      given_.push_back(given);
+      Rows values = held(given);
       if (values.empty()) return;
       if (!normalised)
         for (double& u : values)
@@ -198,7 +166,7 @@ class Builder {
     }
     if (log_.has_commands()) {
       drop_impossible(log_, log_.delta, "commands");
-      found.push_back({"commands", log_.delta});
+      found.push_back({"commands", given_});
     }
     if (log_.has_rotor_speeds()) found.push_back({"rotor speeds", log_.Omega});
     tell_rates(log_, found);
@@ -265,22 +233,34 @@ class Builder {
   LogMap map_;
   const LogColumns& columns_;
   double first_;
+  std::vector<Rows> given_;  ///< commands before they were held: at their own rate
   FlightLog log_;
 };
+
+FlightLog build(NumberTable table, const Vehicle& vehicle, const std::optional<LogMap>& map,
+                const LogColumns& columns) {
+  TableSchema schema{.kind = "flight log", .required = {{{"t"}}}};
+  for (const LogSignal& s : log_signals(kMostRotors)) schema.signals.push_back(s.signal);
+  drop_empty_columns(table, schema);
+  expect_plausible(table, schema, columns.header_line);
+  std::vector<double> breaks = put_time_in_order(table);
+  const double first = count_from_begin(table, breaks);
+  return Builder(std::move(table), vehicle, map, columns, std::move(breaks), first).run();
+}
 
 }  // namespace
 
 FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const std::optional<LogMap>& map) {
+  if (!log_format_of_file(path).empty()) return flight_log_of(read_log_streams(path), vehicle, map);
+  refuse_no_log(first_bytes(path, kRecognisedFrom), path);
   CsvReader csv(path);
   const LogColumns columns = choose_log_columns(path, csv, vehicle, map);
-  NumberTable table = read_columns(path, csv, columns.columns, {});
-  TableSchema schema{.kind = "flight log", .required = {{{"t"}}}};
-  for (const LogSignal& s : log_signals(kMostRotors)) schema.signals.push_back(s.signal);
-  drop_empty_columns(table, schema);
-  expect_plausible(table, schema, csv.header_line());
-  std::vector<double> breaks = put_time_in_order(table);
-  const double first = count_from_begin(table, breaks);
-  return Builder(std::move(table), vehicle, map, columns, std::move(breaks), first).run();
+  return build(read_columns(path, csv, columns.columns, {}), vehicle, map, columns);
+}
+
+FlightLog flight_log_of(const LogStreams& log, const Vehicle& vehicle, const std::optional<LogMap>& map) {
+  StreamTable streams = make_stream_table(log, vehicle, map_for_format(log.format, map));
+  return build(std::move(streams.table), streams.vehicle, streams.map, streams.columns);
 }
 
 }  // namespace ident

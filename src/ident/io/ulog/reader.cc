@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 
@@ -45,7 +44,6 @@ class Reader {
     if (bytes.size() < kHeader)
       throw InputError(file, 0, "", fmt::format("ends at byte {}, within the header", bytes.size()));
     start_ = last_ = load<std::uint64_t>(bytes.data() + 8);
-    subscribed_.fill(nullptr);
   }
 
   LogStreams run() {
@@ -206,13 +204,16 @@ class Reader {
     std::unique_ptr<Topic>& topic = topics_[name];
     if (!topic) topic = std::make_unique<Topic>(Topic{name, *layout, {}});
     if (topic->layout != *layout) return false;
-    subscribed_[load<std::uint16_t>(payload.data() + 1)] = topic.get();
+    const std::size_t id = load<std::uint16_t>(payload.data() + 1);
+    if (id >= subscribed_.size()) subscribed_.resize(id + 1, nullptr);
+    subscribed_[id] = topic.get();
     return true;
   }
 
   bool take_record(std::string_view payload) {
     if (payload.size() < 2) return false;
-    Topic* const topic = subscribed_[load<std::uint16_t>(payload.data())];
+    const std::size_t id = load<std::uint16_t>(payload.data());
+    Topic* const topic = id < subscribed_.size() ? subscribed_[id] : nullptr;
     const std::size_t size = payload.size() - 2;
     if (topic == nullptr || size < topic->layout.least || size > topic->layout.most) return false;
     topic->begins.push_back(static_cast<std::uint64_t>(payload.data() + 2 - bytes_.data()));
@@ -295,7 +296,7 @@ class Reader {
   std::vector<std::uint64_t> appended_;
   ulog::Definitions definitions_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;
-  std::array<Topic*, 65536> subscribed_;
+  std::vector<Topic*> subscribed_;  ///< by message id
 };
 
 }  // namespace
@@ -303,7 +304,7 @@ class Reader {
 bool UlogFormat::recognises(std::string_view first) { return first.starts_with(kMagic); }
 
 LogStreams UlogFormat::read(std::string_view bytes, const std::string& file) {
-  return std::make_unique<Reader>(bytes, file)->run();
+  return Reader(bytes, file).run();
 }
 
 }  // namespace ident

@@ -1,0 +1,71 @@
+// Finds profiles and lays a user's map over them.
+#include "ident/io/log/profiles.h"
+
+#include <algorithm>
+#include <string>
+
+#include "ident/core/error.h"
+#include "ident/io/log/log_signals.h"
+
+namespace ident {
+namespace {
+
+std::optional<LogMap> profile_of(std::string_view format) {
+  for (const ProfileText& profile : profile_texts()) {
+    LogMap map = parse_log_map(std::string(profile.text), "profile " + std::string(profile.name));
+    if (std::ranges::find(map.formats, format) != map.formats.end()) return map;
+  }
+  return std::nullopt;
+}
+
+/// Two spellings of one thing: pulse widths and normalised commands, quaternion and angles.
+std::string_view spelling(std::string_view signal) {
+  if (signal.starts_with("delta")) return "delta";
+  if (signal.starts_with("u")) return "u";
+  if (signal == "phi" || signal == "theta" || signal == "psi") return "angles";
+  if (signal.starts_with("q") && signal.size() == 2) return "quaternion";
+  return {};
+}
+
+std::string_view other_spelling(std::string_view of) {
+  if (of == "delta") return "u";
+  if (of == "u") return "delta";
+  if (of == "angles") return "quaternion";
+  return of == "quaternion" ? "angles" : std::string_view();
+}
+
+void lay_over(LogMap& map, const LogMap& user) {
+  for (const auto& [signal, column] : user.columns) {
+    const std::string_view displaced = other_spelling(spelling(signal));
+    if (!displaced.empty() && !column.column.empty())
+      std::erase_if(map.columns, [&](const auto& line) { return spelling(line.first) == displaced; });
+  }
+  for (const auto& [signal, column] : user.columns) {
+    map.columns[signal] = column;
+    map.columns[signal].must_be_there = column.number == 0;
+  }
+  map.file = user.file;
+  if (user.states_body) map.body = user.body;
+  if (user.states_world) map.world = user.world;
+  map.windows = user.windows;
+  map.windows_line = user.windows_line;
+  if (!user.airborne.empty()) map.airborne = user.airborne;
+  if (!user.output_function.empty()) {
+    map.output_function = user.output_function;
+    map.motor_functions = user.motor_functions;
+  }
+}
+
+}  // namespace
+
+LogMap map_for_format(std::string_view format, const std::optional<LogMap>& user) {
+  std::optional<LogMap> map = profile_of(format);
+  if (!map && !user)
+    throw UsageError("logs of the format '" + std::string(format) +
+                     "' have no profile: name streams and columns in a map (--map)");
+  if (!map) map.emplace();
+  if (user) lay_over(*map, *user);
+  return *map;
+}
+
+}  // namespace ident

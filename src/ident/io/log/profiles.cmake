@@ -1,0 +1,12 @@
+# Embeds data/profiles in the library, so that they are there after an installation too.
+set(profile_folder ${PROJECT_SOURCE_DIR}/data/profiles)
+file(GLOB profiles CONFIGURE_DEPENDS ${profile_folder}/*.yaml)
+set(profile_entries "")
+foreach(path ${profiles})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+  file(READ ${path} text)
+  get_filename_component(name ${path} NAME)
+  string(APPEND profile_entries "    {\"${name}\", R\"yaml(${text})yaml\"},\n")
+endforeach()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/profile_texts.cc.in ${PROJECT_BINARY_DIR}/generated/profile_texts.cc @ONLY)
+target_sources(ident_lib PRIVATE ${PROJECT_BINARY_DIR}/generated/profile_texts.cc)

@@ -1,0 +1,186 @@
+// Finds the fields that a map names, and takes their samples.
+#include "ident/io/log/stream_signals.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/error.h"
+#include "ident/core/nearest_word.h"
+#include "ident/io/csv/units.h"
+
+namespace ident {
+namespace {
+
+constexpr double kMicrosecond = 1e-6;  // s
+constexpr int kMostOutputs = 32;
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  if (const std::size_t at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
+  return text;
+}
+
+/// Where a line of a map leads to in a log.
+struct Source {
+  const LogStream* stream = nullptr;
+  const StreamField* field = nullptr;
+};
+
+class Finder {
+ public:
+  Finder(const LogStreams& log, const LogMap& map) : log_(log), map_(map) {}
+
+  StreamSignals run() {
+    for (const LogSignal& s : log_signals(kMostRotors)) {
+      const auto at = map_.columns.find(s.signal.name);
+      if (at == map_.columns.end() || s.group == LogGroup::time || at->second.column.empty()) continue;
+      if (!take(s, at->second) && at->second.must_be_there) fail(at->second);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// The first of a line and its alternatives that the log has samples of.
+  bool take(const LogSignal& signal, const MappedColumn& mapped) {
+    const Source source = find(mapped);
+    if (source.field) {
+      StreamSignal found = samples(signal, mapped, source);
+      if (!found.t.empty()) {
+        out_.list.push_back(std::move(found));
+        return true;
+      }
+    }
+    return std::ranges::any_of(mapped.otherwise,
+                               [&](const MappedColumn& other) { return take(signal, other); });
+  }
+
+  /// Output that drives a motor, by the parameters of the log; the motor's own number where it has none.
+  std::optional<int> output_of(int motor) const {
+    if (map_.output_function.empty()) return motor;
+    if (motor > static_cast<int>(map_.motor_functions.size())) return std::nullopt;
+    bool stated = false;
+    for (int k = 1; k <= kMostOutputs; ++k) {
+      const auto function = log_.parameter(with(map_.output_function, "{k}", std::to_string(k)));
+      stated = stated || function.has_value();
+      if (function && *function == map_.motor_functions[static_cast<std::size_t>(motor - 1)]) return k;
+    }
+    return stated ? std::nullopt : std::optional(motor);
+  }
+
+  Source find(const MappedColumn& mapped) const {
+    std::string column = mapped.column;
+    if (column.find("{output") != std::string::npos) {
+      const std::optional<int> output = output_of(mapped.number);
+      if (!output) return {};
+      column =
+          with(with(column, "{output}", std::to_string(*output)), "{output-1}", std::to_string(*output - 1));
+    }
+    if (!mapped.stream.empty()) {
+      const LogStream* stream = find_stream(log_, mapped.stream);
+      return {stream, stream ? stream->find(column) : nullptr};
+    }
+    Source most;
+    for (const LogStream& stream : log_.streams)
+      if (const StreamField* field = stream.find(column))
+        if (!most.field || field->size() > most.field->size()) most = {&stream, field};
+    return most;
+  }
+
+  double unit_of(const MappedColumn& mapped, const Signal& signal, const StreamField& field) const {
+    if (mapped.unit.empty()) return unit_factor(field.unit, signal.dimension).value_or(1.0);
+    if (const std::optional<double> factor = unit_factor(mapped.unit, signal.dimension)) return *factor;
+    throw InputError(map_.file, mapped.line, signal.name,
+                     fmt::format("unit '{}' is not known for this signal; known: {}", mapped.unit,
+                                 known_units(signal.dimension)));
+  }
+
+  static bool is_taken(const LogStream& stream, const std::vector<StreamCondition>& where, std::size_t i) {
+    return std::ranges::all_of(where, [&](const StreamCondition& condition) {
+      const StreamField* field = stream.find(condition.field);
+      return !field || field->at(i) == condition.is;
+    });
+  }
+
+  /// Times of the samples: the stream's, those of the column's own, less by what they are late.
+  static std::vector<double> times(const LogStream& stream, const MappedColumn& mapped) {
+    std::vector<double> t = stream.t;
+    const StreamField* own = mapped.time.empty() ? nullptr : stream.find(mapped.time);
+    const StreamField* clock = stream.find(stream.clock);
+    if (own && clock)
+      for (std::size_t i = 0; i < t.size(); ++i)
+        if (own->at(i) > 0) t[i] += (own->at(i) - clock->at(i)) * kMicrosecond;
+    if (const StreamField* late = mapped.late_by.empty() ? nullptr : stream.find(mapped.late_by))
+      for (std::size_t i = 0; i < t.size(); ++i) t[i] -= mapped.late_by_scale * late->at(i);
+    return t;
+  }
+
+  StreamSignal samples(const LogSignal& signal, const MappedColumn& mapped, const Source& source) {
+    const LogStream& stream = *source.stream;
+    StreamSignal found{.name = signal.signal.name,
+                       .group = signal.group,
+                       .stream = stream.name,
+                       .column = source.field->name};
+    const double unit = unit_of(mapped, signal.signal, *source.field);
+    const std::vector<double> t = times(stream, mapped);
+    bool any_number = false;
+    long back = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (!mapped.where.empty() && !is_taken(stream, mapped.where, i)) continue;
+      double value = source.field->at(i);
+      any_number = any_number || std::isfinite(value);
+      if (!std::isfinite(value) && mapped.nan_is) value = *mapped.nan_is;
+      if (!std::isfinite(value) || !std::isfinite(t[i])) continue;
+      if (!found.t.empty() && t[i] <= found.t.back()) {
+        back += t[i] < found.t.back();
+        continue;
+      }
+      found.t.push_back(t[i]);
+      found.values.push_back(unit * (mapped.scale * value + mapped.offset));
+    }
+    if (!any_number) found.t.clear();
+    if (back > 0)
+      out_.warnings.push_back(
+          {"time_backward", fmt::format("{}: {} {}: time goes back in {} samples, which were dropped",
+                                        log_.file, found.stream, found.column, back)});
+    return found;
+  }
+
+  [[noreturn]] void fail(const MappedColumn& mapped) const {
+    std::vector<std::string> names;
+    const LogStream* stream = mapped.stream.empty() ? nullptr : find_stream(log_, mapped.stream);
+    if (!mapped.stream.empty() && !stream) {
+      for (const LogStream& s : log_.streams) names.push_back(s.name);
+      throw InputError(map_.file, mapped.line, mapped.stream,
+                       fmt::format("the log {} has no such stream{}; it has: {}", log_.file,
+                                   did_you_mean(mapped.stream, names), fmt::join(names, ", ")));
+    }
+    for (const LogStream& s : log_.streams)
+      if (!stream || stream == &s)
+        for (const StreamField& field : s.fields) names.push_back(field.name);
+    throw InputError(map_.file, mapped.line, mapped.column,
+                     fmt::format("the log {} has no sample of such a column{}{}", log_.file,
+                                 stream ? " in " + stream->name : "", did_you_mean(mapped.column, names)));
+  }
+
+  const LogStreams& log_;
+  const LogMap& map_;
+  StreamSignals out_;
+};
+
+}  // namespace
+
+const StreamSignal* StreamSignals::find(std::string_view name) const {
+  const auto at = std::ranges::find(list, name, &StreamSignal::name);
+  return at == list.end() ? nullptr : &*at;
+}
+
+StreamSignals stream_signals(const LogStreams& log, const LogMap& map) { return Finder(log, map).run(); }
+
+const LogStream* find_stream(const LogStreams& log, const std::string& name) {
+  const LogStream* exact = log.find(name);
+  return exact ? exact : log.find(name + ":0");
+}
+
+}  // namespace ident

@@ -1,0 +1,34 @@
+// Signals of a flight log out of the streams of a log, each with its own times.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/data/log_streams.h"
+#include "ident/io/log/log_signals.h"
+#include "ident/io/log/read_flight_log.h"
+
+namespace ident {
+
+/// Samples of one signal in SI units, in the order of time; what was not sampled is left out.
+struct StreamSignal {
+  std::string name;
+  LogGroup group = LogGroup::time;
+  std::string stream, column;  ///< where they come from
+  std::vector<double> t, values;
+};
+
+struct StreamSignals {
+  std::vector<StreamSignal> list;
+  std::vector<Warning> warnings;
+
+  const StreamSignal* find(std::string_view name) const;
+};
+
+/// Throws InputError where a user's map names what the log does not hold, or a unit that is not known.
+StreamSignals stream_signals(const LogStreams& log, const LogMap& map);
+
+/// The stream of a name, or its first instance: `vehicle_attitude` is `vehicle_attitude:0`.
+const LogStream* find_stream(const LogStreams& log, const std::string& name);
+
+}  // namespace ident

@@ -1,0 +1,200 @@
+// Puts signals of different rates on one axis of time, and counts rotors.
+#include "ident/io/log/stream_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "ident/core/error.h"
+#include "ident/io/log/airborne.h"
+#include "ident/io/log/stream_signals.h"
+
+namespace ident {
+namespace {
+
+class Maker {
+ public:
+  Maker(const LogStreams& log, const Vehicle& vehicle, const LogMap& map)
+      : log_(log), signals_(stream_signals(log, map)) {
+    out_.map = map;
+    out_.vehicle = vehicle;
+    out_.table.file = log.file;
+  }
+
+  StreamTable run() {
+    count_rotors();
+    take_command_range();
+    expect_something();
+    take_windows();
+    fill();
+    tell_sources();
+    tell_damage();
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(log_.file, 0, "", what); }
+
+  static bool changes(const StreamSignal& signal) {
+    return std::ranges::adjacent_find(signal.values, std::ranges::not_equal_to()) != signal.values.end();
+  }
+
+  /// Signals `prefix`1..N, of which a log may hold more than there are motors: those that never change.
+  int count(const std::string& prefix) {
+    std::vector<std::string> live;
+    for (const StreamSignal& signal : signals_.list)
+      if (changes(signal)) live.push_back(signal.name);
+    const int driven = highest_number(live, prefix);
+    const int rotors = static_cast<int>(out_.vehicle.rotors.size());
+    if (rotors > 0 && driven > rotors)
+      fail(fmt::format("the log has {}1..{}, but the vehicle {} has {} rotors", prefix, driven,
+                       out_.vehicle.name, rotors));
+    const int n = driven == 0 ? 0 : std::max(driven, rotors);
+    std::erase_if(signals_.list,
+                  [&](const StreamSignal& signal) { return highest_number({signal.name}, prefix) > n; });
+    for (int i = 1; i <= n; ++i)
+      if (!signals_.find(fmt::format("{}{}", prefix, i)))
+        fail(fmt::format("{}{} is not in the log, but {}{} is", prefix, i, prefix, n));
+    return n;
+  }
+
+  void count_rotors() {
+    out_.columns.commands = count("delta");
+    out_.columns.pulses = count("u");
+    out_.columns.speeds = count("omega");
+    out_.columns.time_unit_stated = true;
+    if (out_.columns.commands > 0 && out_.columns.pulses > 0) {
+      std::erase_if(signals_.list, [](const StreamSignal& s) { return highest_number({s.name}, "u") > 0; });
+      out_.columns.pulses = 0;
+    }
+  }
+
+  /// The first parameter of a list that holds a pulse width.
+  std::optional<double> pulse(const std::vector<std::string>& names) const {
+    for (const std::string& name : names)
+      if (const auto value = log_.parameter(name); value && *value > 0) return value;
+    return std::nullopt;
+  }
+
+  void take_command_range() {
+    if (out_.columns.pulses == 0 || out_.vehicle.command) return;
+    const auto min = pulse(out_.map.command[0]), max = pulse(out_.map.command[1]);
+    if (!min || !max || *max <= *min)
+      fail(
+          "commands are pulse widths: their range is neither in the log nor, as 'command: {min: .., max: "
+          "..}', in "
+          "the vehicle file");
+    out_.vehicle.command = CommandRange{*min, *max};
+    out_.table.notices.push_back(fmt::format(
+        "{}: command 0 is {} us and 1 is {} us, as the log's parameters say", log_.file, *min, *max));
+  }
+
+  void expect_something() const {
+    const auto has = [&](std::initializer_list<LogGroup> groups) {
+      return std::ranges::any_of(signals_.list, [&](const StreamSignal& s) {
+        return std::ranges::find(groups, s.group) != groups.end();
+      });
+    };
+    constexpr std::size_t kShown = 12;  // streams; PX4 logs a hundred
+    std::vector<std::string> names;
+    for (const LogStream& stream : log_.streams)
+      if (names.size() < kShown) names.push_back(stream.name);
+    const std::string list = fmt::format("{}{}", fmt::join(names, ", "),
+                                         names.size() < log_.streams.size()
+                                             ? fmt::format(" and {} more", log_.streams.size() - names.size())
+                                             : "");
+    if (!has({LogGroup::command, LogGroup::rotor_speed}))
+      fail("neither commands of motors nor rotor speeds are in the log; its streams: " + list);
+    if (!has({LogGroup::rates, LogGroup::specific_force, LogGroup::attitude, LogGroup::velocity}))
+      fail("nothing that moves is in the log: rates, specific force, attitude or velocity; its streams: " +
+           list);
+  }
+
+  void take_windows() {
+    if (!out_.map.windows.empty()) return;
+    const auto flown = airborne(log_, out_.map.airborne, signals_);
+    if (!flown) {
+      if (!out_.map.airborne.empty())
+        out_.table.notices.push_back(log_.file +
+                                     ": takeoff and landing are not in the log: all of it is used");
+      return;
+    }
+    if (flown->empty())
+      throw DataError(log_.file +
+                      ": the vehicle does not fly in this log; 'windows' in a map (--map) choose a "
+                      "part of it nevertheless");
+    out_.map.windows = *flown;
+    double sum = 0.0;
+    for (const auto& [from, until] : *flown) sum += until - from;
+    out_.table.notices.push_back(
+        fmt::format("{}: {:.1f} s between takeoff and landing are used", log_.file, sum));
+  }
+
+  void fill() {
+    std::vector<double> t;
+    for (const StreamSignal& signal : signals_.list) t.insert(t.end(), signal.t.begin(), signal.t.end());
+    std::ranges::sort(t);
+    t.erase(std::ranges::unique(t).begin(), t.end());
+    NumberTable& table = out_.table;
+    for (StreamSignal& signal : signals_.list) {
+      std::vector<double> values(t.size(), kNaN);
+      std::size_t row = 0;
+      for (std::size_t i = 0; i < signal.t.size(); ++i) {
+        while (t[row] < signal.t[i]) ++row;
+        values[row] = signal.values[i];
+      }
+      table.columns.push_back({signal.name, signal.stream + " " + signal.column, std::move(values)});
+      std::vector<double>().swap(signal.t);
+      std::vector<double>().swap(signal.values);
+    }
+    table.line.assign(t.size(), 0);
+    table.columns.push_back({"t", "time", std::move(t)});
+    std::erase_if(out_.map.windows, [&](const auto& window) {
+      const auto& rows = table.columns.back().values;
+      return out_.map.windows_line == 0 &&
+             std::ranges::upper_bound(rows, window[1]) - std::ranges::lower_bound(rows, window[0]) < 2;
+    });
+  }
+
+  void tell_sources() {
+    std::vector<std::pair<std::string, std::vector<std::string>>> sources;
+    for (const StreamSignal& signal : signals_.list) {
+      auto at = std::ranges::find(sources, signal.stream, [](const auto& source) { return source.first; });
+      if (at == sources.end()) at = sources.insert(at, {signal.stream, {}});
+      at->second.push_back(signal.name);
+    }
+    std::string text;
+    for (const auto& [stream, names] : sources)
+      text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", fmt::join(names, " "), stream);
+    out_.table.notices.push_back(log_.file + ": " + text);
+  }
+
+  void tell_damage() {
+    for (const Warning& warning : signals_.warnings) out_.table.warnings.push_back(warning);
+    if (!log_.damage.empty())
+      out_.table.warnings.push_back({"damaged_log", fmt::format("{}: parts of the log cannot be read: {}",
+                                                                log_.file, fmt::join(log_.damage, "; "))});
+    double lost = 0.0;
+    for (const auto& [from, until] : log_.dropouts) lost += until - from;
+    if (lost > 0)
+      out_.table.warnings.push_back(
+          {"log_dropouts",
+           fmt::format("{}: the logger lost samples {} times, {:.2f} s in all: a faster card, or "
+                       "fewer topics, avoids that",
+                       log_.file, log_.dropouts.size(), lost)});
+  }
+
+  const LogStreams& log_;
+  StreamSignals signals_;
+  StreamTable out_;
+};
+
+}  // namespace
+
+StreamTable make_stream_table(const LogStreams& log, const Vehicle& vehicle, const LogMap& map) {
+  return Maker(log, vehicle, map).run();
+}
+
+}  // namespace ident
