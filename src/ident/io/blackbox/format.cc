@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ident/core/error.h"
+#include "ident/io/blackbox/derived_settings.h"
 #include "ident/io/blackbox/header.h"
 #include "ident/io/blackbox/log_decoder.h"
 #include "ident/io/blackbox/log_recorder.h"
@@ -61,6 +62,7 @@ class FileReader {
       return;
     }
     add_settings(header, ++logs_read_ == 1 ? 1 : number, streams_);
+    if (logs_read_ == 1) add_derived_settings(header, streams_);
     const double begin = beginning_of(recorder.first_time_us());
     end_ = recorder.add_to(streams_, number, begin);
     clock_zero_us_ = recorder.first_time_us() - static_cast<std::int64_t>(1e6 * begin);
