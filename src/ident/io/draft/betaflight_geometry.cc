@@ -1,4 +1,4 @@
-// Where the motors of a Betaflight quadrotor sit, and which way they turn as its flight tells.
+// Where the motors of a Betaflight quadrotor sit, and which way they turn, as its flight tells.
 #include "ident/io/draft/betaflight_geometry.h"
 
 #include <fmt/format.h>
@@ -24,11 +24,10 @@ constexpr std::array<Place, 4> kQuadX = {{{"rear right", -1, 1, -1},
                                           {"rear left", -1, -1, 1},
                                           {"front left", 1, -1, -1}}};
 
-/// Span over which yaw's change is compared with the motors' command [s]: longer than their lag (some 30 ms),
-/// shorter than a turn.
-constexpr double kSpan = 0.05;
-/// Standard errors from zero at which the sign of a correlation is taken.
-constexpr double kPlain = 5.0;
+/// Correlation from which its sign is taken. Commands that are clipped or limited keep it above, noise stays
+/// below.
+constexpr double kPlain = 0.3;
+constexpr std::size_t kFewest = 100;  // samples
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const auto n = static_cast<double>(a.size());
@@ -42,46 +41,39 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return saa > 0 && sbb > 0 ? sab / std::sqrt(saa * sbb) : 0.0;
 }
 
-/// Yaw's changes over successive spans, and the mean yaw command within each.
-struct YawSpans {
-  std::vector<double> change, command;
+/// Yaw torque, positive to the right: what is asked for, and what default spins would make of the commands.
+struct YawTorque {
+  std::vector<double> asked, commanded;
 };
 
-YawSpans yaw_spans(const LogStreams& log) {
-  YawSpans spans;
+YawTorque yaw_torque(const LogStreams& log) {
+  YawTorque torque;
   const LogStream* main = find_stream(log, "main");
-  const StreamField* yaw = main ? main->find("gyroADC[2]") : nullptr;
   std::array<const StreamField*, 4> motors{};
   for (std::size_t i = 0; main && i < 4; ++i) motors[i] = main->find(fmt::format("motor[{}]", i));
-  if (!yaw || !motors[3]) return spans;
-  const auto command = [&](std::size_t i) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) sum += kQuadX[k].spin * motors[k]->at(i);
-    return sum;
-  };
-  double sum = 0;
-  std::size_t begin = 0;
+  std::vector<const StreamField*> terms;
+  for (const char* term : {"axisP[2]", "axisI[2]", "axisD[2]", "axisF[2]"})
+    if (const StreamField* field = main ? main->find(term) : nullptr) terms.push_back(field);
+  if (terms.empty() || !motors[3]) return torque;
   for (std::size_t i = 0; i < main->t.size(); ++i) {
-    sum += command(i);
-    if (main->t[i] - main->t[begin] < kSpan) continue;
-    if (main->t[i] - main->t[begin] < 2 * kSpan && i > begin + 2) {
-      // The log's yaw is positive to the left; a counter-clockwise rotor turns the body to the right.
-      spans.change.push_back(-(yaw->at(i) - yaw->at(begin)));
-      spans.command.push_back(sum / static_cast<double>(i - begin + 1));
-    }
-    begin = i;
-    sum = 0;
+    double asked = 0, commanded = 0;
+    for (const StreamField* term : terms)
+      asked -= term->at(i);  // the controller's yaw is positive to the left
+    // A counter-clockwise rotor turns the body to the right.
+    for (std::size_t k = 0; k < 4; ++k) commanded += kQuadX[k].spin * motors[k]->at(i);
+    torque.asked.push_back(asked);
+    torque.commanded.push_back(commanded);
   }
-  return spans;
+  return torque;
 }
 
 }  // namespace
 
 double default_spin_correlation(const LogStreams& log) {
-  const YawSpans spans = yaw_spans(log);
-  if (spans.change.size() < 4) return 0.0;
-  const double r = correlation(spans.change, spans.command);
-  return std::abs(r) * std::sqrt(static_cast<double>(spans.change.size())) > kPlain ? r : 0.0;
+  const YawTorque torque = yaw_torque(log);
+  if (torque.asked.size() < kFewest) return 0.0;
+  const double r = correlation(torque.asked, torque.commanded);
+  return std::abs(r) > kPlain ? r : 0.0;
 }
 
 FrameGeometry betaflight_geometry(const LogStreams& log) {
@@ -94,11 +86,12 @@ FrameGeometry betaflight_geometry(const LogStreams& log) {
                     "vehicle file by hand",
                     log.file, motors));
   const double r = default_spin_correlation(log);
-  const std::string spin =
-      r == 0.0 ? "spin ASSUMED (props in): yaw does not tell"
-               : fmt::format("props {}, as yaw tells (correlation {:.2f})", r > 0 ? "in" : "out", r);
+  const std::string spin = r == 0.0
+                               ? "spin ASSUMED (props in): the log does not tell"
+                               : fmt::format("props {}, as the yaw controller uses them (correlation {:.2f})",
+                                             r > 0 ? "in" : "out", r);
   FrameGeometry geometry{.spin_is_known = r != 0.0};
-  const double side = std::round(kAssumedArm / std::sqrt(2.0) * 1e4) / 1e4;  // m
+  const double side = std::round(kAssumedArm / std::sqrt(2.0) * 1e5) / 1e5;  // m
   for (const Place& place : kQuadX) {
     geometry.rotors.push_back(
         {.r_B = {place.x * side, place.y * side, 0}, .s = r < 0 ? -place.spin : place.spin});
