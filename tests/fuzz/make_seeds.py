@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Writes small logs of every kind of message as seeds for the fuzzers: make_seeds.py FOLDER."""
 import pathlib
+import sqlite3
 import struct
 import sys
+import tempfile
 import zlib
 
 
@@ -69,10 +71,83 @@ def crazyflie(version: int) -> bytes:
     return log + struct.pack('<I', zlib.crc32(log))
 
 
+def blackbox() -> bytes:
+    names = ['loopIteration', 'time', 'vbatLatest', 'amperageLatest', 'motor[0]', 'motor[1]', 'gyroADC[0]', 'gyroADC[1]',
+             'gyroADC[2]', 'rcCommand[0]', 'rcCommand[1]', 'rcCommand[2]', 'rcCommand[3]', 'a', 'b', 'c']
+    groups = '1,1,3,0,0,0,7,7,7,8,8,8,8,10,10,10'
+    log = b'H Product:Blackbox flight data recorder by Nicholas Sherlock\nH Data version:2\n'
+    for line in (f"Field I name:{','.join(names)}", 'Field I signed:0,0,0,1,0,0,1,1,1,1,1,1,1,1,1,1',
+                 'Field I predictor:0,0,9,0,11,5,4,8,0,0,0,0,0,0,0,0', f'Field I encoding:{groups}',
+                 'Field P predictor:6,2,1,1,3,3,1,1,1,1,1,1,1,1,1,1', 'Field P encoding:9,0,6,6,6,6,7,7,7,8,8,8,8,10,10,10',
+                 'Field S name:flightModeFlags,stateFlags', 'Field S encoding:1,1', 'Field H name:GPS_home[0],GPS_home[1]',
+                 'Field H encoding:0,0', 'Field G name:time,GPS_numSat,GPS_coord[0],GPS_coord[1]',
+                 'Field G predictor:10,0,7,7', 'Field G encoding:1,1,0,0', 'I interval:4', 'P interval:1/2', 'minthrottle:1070',
+                 'motorOutput:48,2047', 'vbatref:1600', 'gyro_scale:0x3f800000', 'Firmware revision:Betaflight 4.5.1 (a) X'):
+        log += f'H {line}\n'.encode()
+    intra = bytes([ord('I'), 0, 100, 1, 2, 3, 4, 0x07, 0b01100100, 1, 2, 0x50, 0x77])
+    inter = bytes([ord('P'), 2, 0x03, 1, 2, 0x15, 0x00, 0xC0, 1, 2, 3])
+    frames = intra + inter + inter + b'S\x01\x02' + b'H\x10\x20' + b'G\x07\x09\x02\x03' + b'E\x0e\x08\x10' + b'E\x00\x10'
+    return (log + frames + intra + b'\x99' + inter + b'E\xffEnd of log\0') * 2
+
+
+BLACKBOX_CSV = b"""loopIteration, time (us), gyroADC[0], vbatLatest (V), flightModeFlags (flags)
+0, 100, -3, 16.51, ANGLE_MODE
+1, 1100, 4, 16.50, 0
+"""
+
+EXPLORER_CSV = b'"Product","Blackbox flight data"\n"acc_1G","2048"\n"loopIteration","time","a"\n0,100,2048\n1,NaN,2\n'
+
+HEADER = 'builtin_interfaces/Time stamp\nstring frame_id\n====\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n'
+MSG = f'std_msgs/Header header\nfloat64[3] v\nIn[] items\nstring s\n====\nMSG: a/In\nint8 i\n====\nMSG: std_msgs/Header\n{HEADER}'
+IDL = 'module a { module msg { typedef double d__3[3]; @x(y="z") struct T { long l; d__3 v; sequence<octet> o; string<4> s; }; }; };'
+
+
+def mcap() -> bytes:
+    def text(value: str) -> bytes:
+        return struct.pack('<I', len(value)) + value.encode()
+
+    def record(op: int, content: bytes) -> bytes:
+        return struct.pack('<BQ', op, len(content)) + content
+
+    body = struct.pack('<iI', 5, 6) + text('map\0') + struct.pack('<3d', 1, 2, 3) + struct.pack('<Ibb', 2, 1, 2)
+    idl_body = struct.pack('<i4x3d', 1, 1, 2, 3) + struct.pack('<I', 1) + b'x' + bytes(3) + text('a\0')
+    records = record(3, struct.pack('<H', 1) + text('a/msg/T') + text('ros2msg') + text(MSG))
+    records += record(3, struct.pack('<H', 2) + text('a/msg/T') + text('ros2idl') + text(IDL))
+    for channel in (1, 2):
+        records += record(4, struct.pack('<HH', channel, channel) + text('/t%d' % channel) + text('cdr') + bytes(4))
+    for i in range(3):
+        records += record(5, struct.pack('<HIQQ', 1, i, 1000 + i, 1000) + b'\0\1\0\0' + body + bytes(2) + text('s\0'))
+        records += record(5, struct.pack('<HIQQ', 2, i, 1000 + i, 1000) + b'\0\1\0\0' + idl_body)
+    chunk = record(6, struct.pack('<QQQI', 0, 9, len(records), zlib.crc32(records)) + text('') + struct.pack('<Q', len(records)) + records)
+    return b'\x89MCAP0\r\n' + record(1, text('ros2') + text('x')) + chunk + records + record(15, bytes(4)) + record(2, bytes(20))
+
+
+def rosbag2() -> bytes:
+    bag = sqlite3.connect(':memory:')
+    bag.execute('PRAGMA page_size = 512')
+    bag.executescript("""
+        CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT);
+        CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB);
+        CREATE TABLE message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT, encoding TEXT, encoded_message_definition TEXT);
+        INSERT INTO topics VALUES(1, '/p', 'geometry_msgs/msg/Point', 'cdr'), (2, '/o', 'own/msg/T', 'cdr');
+        INSERT INTO message_definitions VALUES(1, 'own/msg/T', 'ros2msg', 'float32[] x')""")
+    for i in range(4):
+        bag.execute('INSERT INTO messages(topic_id, timestamp, data) VALUES(1, ?, ?)', (i, b'\0\1\0\0' + struct.pack('<3d', 1, 2, i)))
+        bag.execute('INSERT INTO messages(topic_id, timestamp, data) VALUES(2, ?, ?)', (i, b'\0\1\0\0' + struct.pack('<I2f', 2, 1, i)))
+    bag.commit()
+    with tempfile.NamedTemporaryFile() as file:
+        bag.execute('VACUUM INTO ?', (file.name + '.db3',))
+        path = pathlib.Path(file.name + '.db3')
+        content = path.read_bytes()
+        path.unlink()
+    return content
+
+
 folder = pathlib.Path(sys.argv[1])
 for name, bytes_ in {
     'ulog/plain': ulog(False), 'ulog/flags': ulog(True), 'dataflash/small': dataflash(), 'dataflash_text/small': TEXT,
-    'crazyflie/v1': crazyflie(1), 'crazyflie/v2': crazyflie(2),
+    'crazyflie/v1': crazyflie(1), 'crazyflie/v2': crazyflie(2), 'blackbox/small': blackbox(),
+    'blackbox_csv/decoded': BLACKBOX_CSV, 'blackbox_csv/explorer': EXPLORER_CSV, 'mcap/small': mcap(), 'rosbag2/small': rosbag2(),
 }.items():
     path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)

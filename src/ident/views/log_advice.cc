@@ -75,6 +75,8 @@ std::string ardupilot_setting(const LogStreams& log) {
 std::string faster_commands(const LogStreams& log) {
   if (log.format == "ulog") return px4_setting(log);
   if (log.format.starts_with("dataflash")) return ardupilot_setting(log);
+  if (log.format.starts_with("blackbox"))
+    return "blackbox_sample_rate, until main frames come at 1 kHz (1/4 of a loop of 4 kHz)";
   if (log.format == "crazyflie")
     return "in config.txt of the card: a frequency of 500, with motor.m1 to motor.m4";
   return "the logger's rate, until commands come at 100 Hz or more";
@@ -88,6 +90,10 @@ std::string rotor_speeds(const LogStreams& log) {
     return "SERVO_BLH_BDMASK (bidirectional DShot), where the speed controllers can: rotor speeds split the "
            "motors' "
            "lag from all the rest";
+  if (log.format == "blackbox")
+    return "Betaflight 4.5 or later with dshot_bidir ON and the blackbox field RPM: rotor speeds split the "
+           "motors' lag "
+           "from all the rest";
   return "";
 }
 

@@ -56,7 +56,11 @@ TEST_P(CutAndDamaged, DamagedBytesAreReadOverOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(OfSamples, CutAndDamaged,
                          ::testing::Values("ulog/mcap__test_ulog.ulg", "ulog/pyulog__sample_log_small.ulg",
-                                           "dataflash/pymavlink__test.BIN", "crazyflie/imrclab__log178"),
+                                           "dataflash/pymavlink__test.BIN", "crazyflie/imrclab__log178",
+                                           "betaflight/error-recovery.bbl",
+                                           "betaflight/fc-blackbox__btfl_001.bbl",
+                                           "mcap/cognipilot_cubs2__cub_stabilize_2025_11_13.mcap",
+                                           "mcap/rosbag2__wbag_0.mcap"),
                          [](const auto& sample) {
                            std::string name = sample.param;
                            for (char& c : name)

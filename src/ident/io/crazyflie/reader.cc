@@ -6,7 +6,7 @@
 #include <map>
 
 #include "ident/core/error.h"
-#include "ident/io/crazyflie/crc32.h"
+#include "ident/io/packed/crc32.h"
 #include "ident/io/crazyflie/format.h"
 #include "ident/io/packed/damage.h"
 #include "ident/io/packed/little_endian.h"

@@ -8,6 +8,7 @@
 
 #include "ident/core/error.h"
 #include "ident/io/draft/assumed_constants.h"
+#include "ident/io/draft/betaflight_geometry.h"
 #include "ident/io/draft/frame_geometry.h"
 
 namespace ident {
@@ -26,6 +27,7 @@ std::string line(const std::string& text, const std::string& comment) {
 
 FrameGeometry geometry_of(const LogStreams& log) {
   if (log.format == "crazyflie") return crazyflie_geometry();
+  if (log.format.starts_with("blackbox")) return betaflight_geometry(log);
   if (const auto px4 = px4_geometry(log)) return *px4;
   if (const auto ardupilot = ardupilot_geometry(log)) return *ardupilot;
   throw DataError(
@@ -51,7 +53,8 @@ std::string fact(const LogStreams& log, const char* name) {
 
 std::string title(const LogStreams& log) {
   std::string text = fmt::format("# Drafted from {} ({}", log.file, log.format);
-  for (const char* name : {"firmware", "sys_name", "ver_hw", "ver_sw", "frame", "sys_uuid"})
+  for (const char* name :
+       {"firmware", "Firmware revision", "Craft name", "sys_name", "ver_hw", "ver_sw", "frame", "sys_uuid"})
     if (const std::string value = fact(log, name); !value.empty())
       text += fmt::format(", {} {}", name, value);
   return text +
@@ -95,7 +98,7 @@ std::string battery_line(const LogStreams& log) {
 /// What a reader should know, and no key of the file holds.
 std::string remarks(const LogStreams& log) {
   std::string text;
-  if (const auto poles = stated(log, {"MOT_POLE_COUNT", "SERVO_BLH_POLES"}))
+  if (const auto poles = stated(log, {"MOT_POLE_COUNT", "SERVO_BLH_POLES", "motor_poles"}))
     text += fmt::format(
         "# {} {}: the magnets by which speeds in the log were computed; count those of your motors.\n",
         poles->name, poles->value);

@@ -12,8 +12,8 @@
 namespace ident {
 namespace {
 
-const std::vector<std::string> kColumnKeys = {"column", "unit", "scale",   "offset", "stream",
-                                              "where",  "time", "late_by", "nan"};
+const std::vector<std::string> kColumnKeys = {"column", "unit",    "scale", "offset", "stream", "where",
+                                              "time",   "late_by", "nan",   "by",     "per",    "range"};
 const std::vector<std::string> kLateKeys = {"column", "scale"};
 constexpr const char* kNumber = "{n}";
 
@@ -75,6 +75,13 @@ MappedColumn read_column(const YamlValue& value, int n) {
     if (value.has("nan")) mapped.nan_is = value.at("nan").number();
     if (value.has("time")) mapped.time = numbered(value.at("time").text(), n);
     if (value.has("where")) read_conditions(value.at("where"), n, mapped);
+    if (value.has("by")) mapped.by = value.at("by").text();
+    if (value.has("per")) mapped.per = value.at("per").text();
+    if (value.has("range")) {
+      const std::vector<YamlValue> ends = value.at("range").list();
+      if (ends.size() != 2) value.at("range").fail("has to name two parameters: of 0 and of 1");
+      mapped.range = {ends[0].text(), ends[1].text()};
+    }
     if (value.has("late_by")) {
       const YamlValue late = value.at("late_by");
       late.expect_map(kLateKeys);

@@ -45,8 +45,9 @@ class Finder {
   /// The first of a line and its alternatives that the log has samples of.
   bool take(const LogSignal& signal, const MappedColumn& mapped) {
     const Source source = find(mapped);
-    if (source.field) {
-      StreamSignal found = samples(signal, mapped, source);
+    const std::optional<Line> line = line_of(mapped);
+    if (source.field && line) {
+      StreamSignal found = samples(signal, mapped, source, *line);
       if (!found.t.empty()) {
         out_.list.push_back(std::move(found));
         return true;
@@ -88,6 +89,26 @@ class Finder {
     return most;
   }
 
+  /// value = factor * number + offset. Nothing where the log does not state a parameter that it takes.
+  struct Line {
+    double factor = 1.0, offset = 0.0;
+  };
+  std::optional<Line> line_of(const MappedColumn& mapped) const {
+    Line line{mapped.scale, mapped.offset};
+    if (!mapped.by.empty()) line.factor *= log_.parameter(mapped.by).value_or(0.0);
+    if (!mapped.per.empty()) {
+      const double per = log_.parameter(mapped.per).value_or(0.0);
+      line.factor = per == 0.0 ? 0.0 : line.factor / per;
+    }
+    if (!mapped.range[0].empty()) {
+      const auto zero = log_.parameter(mapped.range[0]), one = log_.parameter(mapped.range[1]);
+      if (!zero || !one || *one <= *zero) return std::nullopt;
+      line.factor /= *one - *zero;
+      line.offset -= line.factor * *zero;
+    }
+    return line.factor == 0.0 ? std::nullopt : std::optional(line);
+  }
+
   double unit_of(const MappedColumn& mapped, const Signal& signal, const StreamField& field) const {
     if (mapped.unit.empty()) return unit_factor(field.unit, signal.dimension).value_or(1.0);
     if (const std::optional<double> factor = unit_factor(mapped.unit, signal.dimension)) return *factor;
@@ -116,7 +137,8 @@ class Finder {
     return t;
   }
 
-  StreamSignal samples(const LogSignal& signal, const MappedColumn& mapped, const Source& source) {
+  StreamSignal samples(const LogSignal& signal, const MappedColumn& mapped, const Source& source,
+                       const Line& line) {
     const LogStream& stream = *source.stream;
     StreamSignal found{.name = signal.signal.name,
                        .group = signal.group,
@@ -137,7 +159,7 @@ class Finder {
         continue;
       }
       found.t.push_back(t[i]);
-      found.values.push_back(unit * (mapped.scale * value + mapped.offset));
+      found.values.push_back(unit * (line.factor * value + line.offset));
     }
     if (!any_number) found.t.clear();
     if (back > 0)
@@ -179,8 +201,13 @@ const StreamSignal* StreamSignals::find(std::string_view name) const {
 StreamSignals stream_signals(const LogStreams& log, const LogMap& map) { return Finder(log, map).run(); }
 
 const LogStream* find_stream(const LogStreams& log, const std::string& name) {
-  const LogStream* exact = log.find(name);
-  return exact ? exact : log.find(name + ":0");
+  if (const LogStream* exact = log.find(name)) return exact;
+  if (const LogStream* first = log.find(name + ":0")) return first;
+  const LogStream* longest = nullptr;
+  for (const LogStream& stream : log.streams)
+    if (stream.name.ends_with(":" + name) && (!longest || stream.t.size() > longest->t.size()))
+      longest = &stream;
+  return longest;
 }
 
 }  // namespace ident

@@ -28,7 +28,8 @@ struct StreamSignals {
 /// Throws InputError where a user's map names what the log does not hold, or a unit that is not known.
 StreamSignals stream_signals(const LogStreams& log, const LogMap& map);
 
-/// The stream of a name, or its first instance: `vehicle_attitude` is `vehicle_attitude:0`.
+/// The stream of a name, or its first instance: `vehicle_attitude` is `vehicle_attitude:0`. Of several logs
+/// in a file the longest: `main` is `2:main` where that has the most samples.
 const LogStream* find_stream(const LogStreams& log, const std::string& name);
 
 }  // namespace ident

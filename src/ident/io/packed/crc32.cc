@@ -1,5 +1,5 @@
 // CRC-32, eight bytes at a time.
-#include "ident/io/crazyflie/crc32.h"
+#include "ident/io/packed/crc32.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// The check sum of card logs.
+// The check sum of card logs and of MCAP chunks.
 #pragma once
 
 #include <cstdint>
