@@ -39,6 +39,8 @@ struct Context {
   /// Hashes of large inputs, found beside the work.
   std::map<std::string, std::future<std::string>> hashes;
   Shown shown = Shown::pictures;  ///< of the result
+  /// Printed on standard output instead of the result, without --json: a file that has no name.
+  std::string plain_output;
   /// Files to write. They appear together after the command has succeeded, or not at all.
   Outputs outputs;
 };

@@ -3,7 +3,7 @@
 # `setup_packages LIST...` installs missing Debian packages, `setup_plots` fetches the interactive plots.
 
 build_packages=(build-essential cmake ninja-build libeigen3-dev libceres-dev libfmt-dev nlohmann-json3-dev
-                libyaml-cpp-dev libcli11-dev libfccp-dev)
+                libyaml-cpp-dev libpugixml-dev libtomlplusplus-dev libcli11-dev libfccp-dev)
 test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib)
 
 setup_packages() {

@@ -97,11 +97,15 @@ ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& option
   add_provenance(result, context);
   if (!options.report.empty()) add_report(context.outputs, report_files(options.report, result));
   keep_in_campaign(result, context);
-  const std::string text = options.json ? json_text(result) : terminal_text(result, context);
+  const std::string text = options.json                    ? json_text(result)
+                           : context.plain_output.empty() ? terminal_text(result, context)
+                                                          : context.plain_output;
   context.outputs.prepare();
   print(text);
   context.outputs.commit();
   if (!options.json) fmt::print(stderr, "{}", notes(context.notices));
+  if (!options.json && !context.plain_output.empty())
+    for (const Warning& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning.message);
   return outcome.status;
 }
 

@@ -109,8 +109,9 @@ std::vector<std::string> YamlValue::keys() const {
   return names;
 }
 
-YamlValue load_yaml(const std::string& path) {
-  const std::string text = read_bytes(path, kLargestFile);
+YamlValue load_yaml(const std::string& path) { return load_yaml(path, read_bytes(path, kLargestFile)); }
+
+YamlValue load_yaml(const std::string& path, const std::string& text) {
   const std::vector<YAML::Node> all = documents(path, text);
   if (all.empty() || all.front().IsNull()) throw InputError(path, 0, "", "is empty");
   if (all.size() > 1) throw InputError(path, 0, "", "holds more than one YAML document");

@@ -49,5 +49,7 @@ class YamlValue {
 
 /// The one document of a YAML file; throws InputError.
 YamlValue load_yaml(const std::string& path);
+/// The same of a text that was read already; `path` is for messages.
+YamlValue load_yaml(const std::string& path, const std::string& text);
 
 }  // namespace ident

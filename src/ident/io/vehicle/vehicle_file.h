@@ -13,7 +13,7 @@ namespace ident {
 /// inertia too), or to be judged, where any finite value passes.
 enum class VehicleUse { computing, judging };
 
-/// Reads a vehicle or parameter file. Throws InputError `file:line: key: what`.
+/// Reads a vehicle or parameter file, or a simulator's file, which is known by its content. Throws InputError `file:line: key: what`.
 /// `mass` becomes parameter `m`, `gravity` (or `parameters.g`) `Vehicle::g`, `slant_deg` parameter `alpha` in
 /// rad. Two effects are stored under another name than in the file:
 ///   rotor_mismatch.rotor K, rotor_mismatch.ratio   ->  rotor_mismatch.ratio@K
