@@ -48,6 +48,7 @@ inline std::vector<Vehicle> vehicles_with_effects() {
     Vehicle v = many;
     for (const char* name : {"m", "kT", "kQ"}) v.parameters[name].value *= scale;
     for (const char* name : {"Jxx", "Jyy", "Jzz", "Jp"}) v.parameters[name].value *= scale * scale;
+    if (scale < 1) v.parameters.erase("gyroscopic.Jp");  // a size for 0.5 kg: more than all of the yaw inertia
     v.parameters["Jxy"] = {0.02 * v.value("Jxx"), {}};
     list.push_back(v);
   }

@@ -142,7 +142,7 @@ void reduce_body(const Vehicle& whole, const Capacity& holds, Vehicle& v) {
   MassProperties body = mass_properties(whole);
   erase_entering<MassSeam<double>>(v);
   if (holds.centre != Capacity::Centre::own) body.c_B.setZero();
-  if (!holds.products) body.J = body.J.diagonal().asDiagonal();
+  if (!holds.products) body.J = Eigen::Matrix3d(body.J.diagonal().asDiagonal());
   if (!holds.rotor_momentum) body.Jp = 0.0;
   body.Jp = std::max(body.Jp, holds.least_momentum * body.J(2, 2));
   set_mass_properties(v, body);

@@ -13,6 +13,7 @@
 namespace ident {
 namespace {
 
+constexpr double kGravity = 9.81;                  // m/s^2 of crazyflow
 constexpr double kPerRpm = std::numbers::pi / 30.0;  // rad/s
 
 bool recognises(std::string_view text) {
@@ -39,6 +40,7 @@ ThrustPolynomial polynomial(const Fields& f, const char* name) {
 
 Vehicle vehicle(const Fields& f) {
   Vehicle v;
+  v.g = kGravity;
   const std::vector<double> J = f.numbers("J", 9), mixing = f.numbers("mixing_matrix", 12), drag = f.numbers("drag_matrix", 9);
   const double L = f.positive("L");
   for (std::size_t n = 0; n < 4; ++n)
@@ -70,6 +72,7 @@ Vehicle vehicle(const Fields& f) {
 /// Hubs on the diagonals at the same distance, and no rotor momentum where the spins do not cancel: crazyflow's
 /// gyroscopic torque has the same sign about both axes.
 void stand_in(const Vehicle&, Vehicle& v) {
+  v.g = kGravity;
   double L = 0.0;
   int spins = 0;
   for (const Rotor& r : v.rotors) L += (std::abs(r.r_B.x()) + std::abs(r.r_B.y())) / 2 / static_cast<double>(v.rotors.size());
@@ -115,7 +118,7 @@ std::string page(const Vehicle& v, const Values& values) {
       text += (row && i % row == 0 ? (i ? "], [" : "[") : i ? ", " : "") + number;
     }
     if (value.numbers.size() == 1 && text.find_first_of(".en") == std::string::npos) text += ".0";
-    if (value.numbers.size() > 1) text = (row ? "[" + text + "]" : text), text = "[" + text + "]";
+    if (value.numbers.size() > 1) text = "[" + text + (row ? "]]" : "]");
     out += fmt::format("{} = {}  # {}\n", value.name, text, values.note(value.name));
   }
   return out;

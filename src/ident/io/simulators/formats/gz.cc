@@ -25,6 +25,7 @@ SimulatorFormat gz_format() {
           .recognises = recognises,
           .read = [](const std::string& text, const std::string& file) { return sdf_fields(text, file, kDialect.plugin); },
           .vehicle = [](const Fields& fields) { return gazebo_vehicle(fields, kDialect); },
+          .stand_in = [](const Vehicle&, Vehicle& v) { gazebo_stand_in(v); },
           .values = [](const Vehicle& v, const Fields* own) { return gazebo_values(v, own, kDialect); },
           .page = [](const Vehicle& v, const Values& values) { return gazebo_page(v, values, kDialect); },
           .remarks = [](const Vehicle& whole, const Vehicle& v) { return gazebo_remarks(whole, v, kDialect); }};

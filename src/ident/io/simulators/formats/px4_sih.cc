@@ -8,6 +8,7 @@
 namespace ident {
 namespace {
 
+constexpr double kGravity = 9.80665;  // CONSTANTS_ONE_G of PX4
 constexpr double kDragSpeed = 5.0;  // m/s at which the drag of the airframe is replaced by a linear one
 
 bool recognises(std::string_view text) {
@@ -18,6 +19,7 @@ const std::vector<FixedRotor> kLayout = {{1, 1, 1}, {-1, -1, 1}, {1, -1, -1}, {-
 
 Vehicle vehicle(const Fields& f) {
   Vehicle v;
+  v.g = kGravity;
   const double type = f.number("SIH_VEHICLE_TYPE", 0.0);
   if (type != 0.0) f.fail("SIH_VEHICLE_TYPE", "is no quadrotor (0), and only these are read");
   const double x = f.positive("SIH_L_PITCH"), y = f.positive("SIH_L_ROLL"), torque = f.number("SIH_Q_MAX");
@@ -39,6 +41,7 @@ Vehicle vehicle(const Fields& f) {
 }
 
 void stand_in(const Vehicle& whole, Vehicle& v) {
+  v.g = kGravity;
   set_by_full_thrust(v, full_thrust(v), full_thrust(v) * torque_per_thrust(v));
   const double drag = as_stated(whole_linear_drag(whole, kDragSpeed));
   for (const char* name : {"Kdx", "Kdy", "Kdz"}) {

@@ -1,7 +1,8 @@
 // RotorPy: the dictionary `quad_params`, as Python, YAML or JSON [rotorpy/vehicles/multirotor.py].
 //
 // Body frame forward, left, up. T = k_eta w^2, yaw k_m w^2, H = -w diag(k_d, k_d, k_z) v and lift k_h v^2 at each
-// hub, drag -|v| diag(c_D) v at the centre, flapping k_flap w (v x -z), speeds of first order.
+// hub, drag -|v| diag(c_D) v at the centre, flapping -k_flap w (v x z), which lowers the nose in
+// forward flight where ours raises it; speeds of first order.
 #include "ident/io/simulators/entries.h"
 #include "ident/io/simulators/readers/python_literal.h"
 #include "ident/io/simulators/readers/yaml_fields.h"
@@ -11,6 +12,7 @@ namespace ident {
 namespace {
 
 using Eigen::Vector3d;
+constexpr double kGravity = 9.81;  // m/s^2 of RotorPy
 constexpr const char* kName = "quad_params";
 
 struct Entry {
@@ -25,8 +27,7 @@ constexpr Entry kPlain[] = {{"mass", "m", "kg"},
                             {"k_m", "kQ", "N m/(rad/s)^2"},
                             {"k_d", "rotor_drag.kd", "kg/rad"},
                             {"k_z", "axial_inflow.kz", "kg/rad"},
-                            {"k_h", "translational_lift.kh", "kg/m"},
-                            {"k_flap", "blade_flapping.kf", "N s^2/rad"}};
+                            {"k_h", "translational_lift.kh", "kg/m"}};
 
 bool recognises(std::string_view text) {
   return assigns_dictionary(text, kName) || yaml_has_keys(text, {"k_eta", "k_m", "rotor_pos"}, kName);
@@ -52,8 +53,10 @@ void read_rotors(const Fields& f, Vehicle& v) {
 
 Vehicle vehicle(const Fields& f) {
   Vehicle v;
+  v.g = kGravity;
   read_rotors(f, v);
   for (const Entry& e : kPlain) state_unless_zero(v, e.constant, f.number(e.name, 0.0));
+  state_unless_zero(v, "blade_flapping.kf", -f.number("k_flap", 0.0));
   state_unless_zero(v, "Jxy", -f.number("Ixy", 0.0));
   state_unless_zero(v, "Jxz", -f.number("Ixz", 0.0));
   state_unless_zero(v, "Jyz", f.number("Iyz", 0.0));
@@ -72,9 +75,12 @@ Vehicle vehicle(const Fields& f) {
   return v;
 }
 
+void stand_in(const Vehicle&, Vehicle& v) { v.g = kGravity; }
+
 std::vector<Value> values(const Vehicle& v, const Fields*) {
   std::vector<Value> out;
   for (const Entry& e : kPlain) out.push_back({e.name, {value_or_zero(v, e.constant)}, e.unit, e.constant});
+  out.push_back({"k_flap", {-value_or_zero(v, "blade_flapping.kf")}, "N s^2/rad", "-blade_flapping.kf"});
   out.push_back({"Ixy", {-value_or_zero(v, "Jxy")}, "kg m^2", "-Jxy"});
   out.push_back({"Iyz", {value_or_zero(v, "Jyz")}, "kg m^2", "Jyz"});
   out.push_back({"Ixz", {-value_or_zero(v, "Jxz")}, "kg m^2", "-Jxz"});
@@ -112,7 +118,7 @@ std::string page(const Vehicle& v, const Values& values) {
 }
 
 std::vector<std::string> remarks(const Vehicle& v, const Vehicle&) {
-  if (v.g == 9.81) return {};
+  if (v.g == kGravity) return {};
   return {fmt::format("RotorPy computes with 9.81 m/s^2, the vehicle file says {:.6g}", v.g)};
 }
 
@@ -130,6 +136,7 @@ SimulatorFormat rotorpy_format() {
           .recognises = recognises,
           .read = read,
           .vehicle = vehicle,
+          .stand_in = stand_in,
           .values = values,
           .page = page,
           .remarks = remarks};

@@ -13,6 +13,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kGravity = 9.8;             // m/s^2, of a world that states none
 constexpr double kSlowdown = 10.0;           // rotorVelocitySlowdownSim of both plugins' models
 constexpr double kNoAirspeedLimit = 1e6;     // m/s: so fast that the thrust does not fall with speed
 constexpr double kLeastMomentum = 1e-6;      // Jp over Jzz: Gazebo's links cannot do without inertia
@@ -115,6 +116,7 @@ Capacity gazebo_capacity(const GazeboDialect& dialect) {
 
 Vehicle gazebo_vehicle(const Fields& f, const GazeboDialect& dialect) {
   Vehicle v;
+  v.g = kGravity;
   const std::size_t rotors = sdf_rotors(f);
   if (rotors == 0 || !f.has(key(0, "motorConstant"))) f.fail("plugin", "there is no motor plugin: no rotors");
   read_motors(f, rotors, v);
@@ -136,6 +138,19 @@ Vehicle gazebo_vehicle(const Fields& f, const GazeboDialect& dialect) {
   if (mean(f, "rollingMomentCoefficient", rotors, 0.0) != 0.0)
     assume(v, f, "rollingMomentCoefficient acts along the velocity, which no blade does: left out");
   return v;
+}
+
+void gazebo_stand_in(Vehicle& v) {
+  v.g = kGravity;
+  double mean_ratio = 0.0;  // kT and kQ are those of the mean rotor
+  for (std::size_t n = 0; n < v.rotors.size(); ++n) mean_ratio += rotor_ratio(v, n) / static_cast<double>(v.rotors.size());
+  if (mean_ratio == 1.0) return;
+  for (std::size_t n = 0; n < v.rotors.size(); ++n) {
+    const double ratio = as_stated(rotor_ratio(v, n) / mean_ratio);
+    v.parameters.erase(fmt::format("rotor_mismatch.ratio@{}", n + 1));
+    if (ratio != 1.0) v.parameters[fmt::format("rotor_mismatch.ratio@{}", n + 1)] = {ratio, {}};
+  }
+  for (const char* name : {"kT", "kQ"}) v.parameters[name].value = as_stated(v.value(name) * mean_ratio);
 }
 
 std::vector<Value> gazebo_values(const Vehicle& v, const Fields* own, const GazeboDialect& dialect) {
