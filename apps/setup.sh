@@ -4,7 +4,8 @@
 
 build_packages=(build-essential cmake ninja-build libeigen3-dev libceres-dev libfmt-dev nlohmann-json3-dev
                 libyaml-cpp-dev libpugixml-dev libtomlplusplus-dev libcli11-dev libfccp-dev)
-test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib)
+test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib
+               libmujoco-dev libsdformat-dev liburdfdom-dev)
 
 setup_packages() {
   local package missing=() as_root=()

@@ -48,7 +48,9 @@ inline std::vector<Vehicle> vehicles_with_effects() {
     Vehicle v = many;
     for (const char* name : {"m", "kT", "kQ"}) v.parameters[name].value *= scale;
     for (const char* name : {"Jxx", "Jyy", "Jzz", "Jp"}) v.parameters[name].value *= scale * scale;
-    if (scale < 1) v.parameters.erase("gyroscopic.Jp");  // a size for 0.5 kg: more than all of the yaw inertia
+    if (scale < 1)  // sizes for 0.5 kg, more than all of the inertia here
+      for (const char* name : {"gyroscopic.Jp", "products_of_inertia.Jxy", "products_of_inertia.Jxz", "products_of_inertia.Jyz"})
+        v.parameters.erase(name);
     v.parameters["Jxy"] = {0.02 * v.value("Jxx"), {}};
     list.push_back(v);
   }

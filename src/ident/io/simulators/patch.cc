@@ -70,7 +70,8 @@ SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string
     } else if (fields.has(value.name)) {
       edit_field(fields, value, edits);
     } else if (const Insertion* where = fields.insertion(value.name)) {
-      edits.push_back({where->at, 0, where->before + joined(value, " ") + where->after});
+      if (!std::ranges::all_of(value.numbers, [&](double x) { return same(x, where->absent); }))
+        edits.push_back({where->at, 0, where->before + joined(value, " ") + where->after});
     } else if (value.word.empty() && std::ranges::any_of(value.numbers, [](double x) { return x != 0.0; })) {
       out.notes.push_back(fmt::format("{}: {}: stands nowhere in the file and was not added (it would be {})", file,
                                       value.name, joined(value, " ")));

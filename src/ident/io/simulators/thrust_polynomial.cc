@@ -41,8 +41,9 @@ bool set_thrust_polynomial(Vehicle& v, const ThrustPolynomial& thrust) {
     return true;
   }
   const double slope = (thrust.b + 2 * thrust.c * Omega) * Omega / T - 2;
-  state_unless_zero(v, "thrust_curve.c", slope);
-  state_unless_zero(v, "thrust_curve.offset", (2 * thrust.c * Omega * Omega / T - 2 - 4 * slope) / kOffsetCurvature);
+  const double offset = (2 * thrust.c * Omega * Omega / T - 2 - 4 * slope) / kOffsetCurvature;
+  state_unless_zero(v, "thrust_curve.c", cleaned(slope, 10.0));
+  state_unless_zero(v, "thrust_curve.offset", cleaned(offset, 10.0));
   return true;
 }
 

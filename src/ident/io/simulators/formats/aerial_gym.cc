@@ -1,4 +1,6 @@
 // aerial_gym: the control allocation and motor model of a robot's configuration, with 95 % intervals as its ranges.
+#include <Eigen/Geometry>
+
 #include "ident/io/simulators/entries.h"
 #include "ident/io/simulators/simulator_format.h"
 

@@ -33,6 +33,14 @@ double hover_command(double e, double share) {
 /// Part of the full speed that is there at command 0, so that hover agrees: (a + (1 - a) c)^2 = share.
 double idle_share(double c, double share) { return (std::sqrt(share) - c) / (1 - c); }
 
+/// The assumed full speed, a part of it without command; so rounded that both make the full speed again.
+void set_idle(Vehicle& v, double idle) {
+  const double Omega_0 = std::round(kAssumedFullSpeed * idle * 1e9) / 1e9;
+  v.parameters.erase("Omega_0");
+  state_unless_zero(v, "Omega_0", Omega_0);
+  v.parameters["km"] = {as_stated(kAssumedFullSpeed - Omega_0), {}};
+}
+
 void read_rotors(const Fields& f, Vehicle& v, double hover) {
   const double count = f.number("num_motors", 4.0);
   if (count < 1 || count > 8 || count != std::floor(count)) f.fail("num_motors", "has to be 1 to 8");
@@ -86,8 +94,7 @@ Vehicle vehicle(const Fields& f) {
   const double thrust = f.number("mass") * kGravity / (static_cast<double>(v.rotors.size()) * share);
   const double per_thrust = v.has("kQ") ? v.value("kQ") : kYawScale * f.number("diagonal_size") * hover;
   set_by_full_thrust(v, thrust, thrust * per_thrust);
-  v.parameters["km"] = {as_stated(kAssumedFullSpeed * (1 - idle)), {}};
-  state_unless_zero(v, "Omega_0", as_stated(kAssumedFullSpeed * idle));
+  set_idle(v, idle);
   const double low = f.number("pwmMin", 1000.0), range = f.number("pwmMax", 2000.0) - low;
   const double from = f.number("spin_min", 0.15), to = f.number("spin_max", 0.95);
   if (!(range > 0) || !(to > from)) f.fail("pwmMax", "leaves no range of the command");
@@ -103,9 +110,7 @@ double idle_of(const Vehicle& v) { return value_or_zero(v, "Omega_0") / full_spe
 void stand_in(const Vehicle& whole, Vehicle& v) {
   const double idle = idle_of(v), thrust = full_thrust(v);
   set_by_full_thrust(v, thrust, thrust * torque_per_thrust(v));
-  v.parameters["km"] = {as_stated(kAssumedFullSpeed * (1 - idle)), {}};
-  v.parameters.erase("Omega_0");
-  state_unless_zero(v, "Omega_0", as_stated(kAssumedFullSpeed * idle));
+  set_idle(v, idle);
   v.parameters.erase("parasitic_drag.C");
   state_unless_zero(v, "parasitic_drag.C", as_stated(whole_linear_drag(whole, kReferenceSpeed) / kReferenceSpeed));
   if (!v.command) v.command = CommandRange{1000.0, 2000.0};

@@ -86,9 +86,11 @@ std::string page(const Vehicle& v, const Values& values) {
   for (std::size_t n = 0; n < v.rotors.size(); ++n) {
     const auto text = [&](const char* part) { return values.text(key(n, part)); };
     sites += fmt::format("      <site name=\"rotor{}\" pos=\"{}\" zaxis=\"{}\"/>\n", n + 1, text("pos"), text("zaxis"));
+    const std::string filter =
+        values.number(key(n, "dynprm")) > 0 ? fmt::format("dyntype=\"filter\" dynprm=\"{}\" ", text("dynprm")) : "";
     motors += fmt::format("    <general name=\"motor{0}\" site=\"rotor{0}\" gear=\"{1}\" ctrllimited=\"true\" ctrlrange=\"{2}\" "
-                          "dyntype=\"filter\" dynprm=\"{3}\" gaintype=\"fixed\" gainprm=\"1\"/>\n",
-                          n + 1, text("gear"), text("ctrlrange"), text("dynprm"));
+                          "{3}gaintype=\"fixed\" gainprm=\"1\"/>\n",
+                          n + 1, text("gear"), text("ctrlrange"), filter);
   }
   return fmt::format(
       "<mujoco model=\"{}\">\n  <!-- Written by ident. Forward, left, up. The control of a motor is its thrust in N.\n"
@@ -111,7 +113,7 @@ std::vector<std::string> remarks(const Vehicle&, const Vehicle&) {
 SimulatorFormat mujoco_format() {
   return {.target = "mujoco",
           .meaning = "MuJoCo: an MJCF model",
-          .holds = {.each_rotor = false, .needs = {"km", "omega_m"}},
+          .holds = {.needs = {"km"}},
           .recognises = recognises,
           .read = mjcf_fields,
           .vehicle = vehicle,

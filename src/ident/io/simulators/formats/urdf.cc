@@ -66,18 +66,27 @@ Vehicle vehicle(const Fields& f) {
   return v;
 }
 
-void stand_in(const Vehicle&, Vehicle& v) { v.g = 9.8; }
+/// The file needs a radius of the propeller; without one half the arm serves, and ground effect goes by it.
+void stand_in(const Vehicle&, Vehicle& v) {
+  v.g = 9.8;
+  if (!v.propeller_radius) v.propeller_radius = as_stated(std::hypot(v.rotors[0].r_B.x(), v.rotors[0].r_B.y()) / 2);
+}
 
 std::vector<Value> values(const Vehicle& v, const Fields* own) {
   const double most = full_speed(v), kT = v.value("kT"), m = v.value("m");
-  const double radius = v.propeller_radius ? *v.propeller_radius : own ? own->number("prop_radius") : 0.0;
+  const double radius = v.propeller_radius.value();
+  double arm = std::hypot(v.rotors[0].r_B.x(), v.rotors[0].r_B.y());
+  if (own) {  // the arm of a user's file may be rounded: it changes as the hubs do
+    const Eigen::Vector3d theirs = own->vector3(hub(0));
+    arm *= own->number("arm") / std::hypot(theirs.x(), theirs.y());
+  }
   const double ground = value_or_zero(v, "ground_effect.radius_sq");
   std::vector<Value> out = {
-      {"arm", {std::hypot(v.rotors[0].r_B.x(), v.rotors[0].r_B.y())}, "m", "hubs"},
+      {"arm", {arm}, "m", "hubs"},
       {"kf", {kT * kPerRpm * kPerRpm}, "N/rpm^2", "kT"},
       {"km", {v.value("kQ") * kPerRpm * kPerRpm}, "N m/rpm^2", "kQ"},
       {"thrust2weight", {4 * kT * most * most / (m * v.g)}, "-", "kT (Omega_0 + km)^2 over m g"},
-      {"gnd_eff_coeff", {ground > 0 && radius > 0 ? ground / (radius * radius) : 0.0}, "-", "ground_effect.radius^2/R^2"},
+      {"gnd_eff_coeff", {ground / (radius * radius)}, "-", "ground_effect.radius^2/R^2"},
       {"prop_radius", {radius}, "m", "propeller_radius"},
       {"drag_coeff_xy", {value_or_zero(v, "rotor_drag.kd")}, "kg/rad", "rotor_drag.kd"},
       {"drag_coeff_z", {value_or_zero(v, "axial_inflow.kz")}, "kg/rad", "axial_inflow.kz"},
@@ -130,8 +139,9 @@ std::vector<std::string> remarks(const Vehicle& whole, const Vehicle& v) {
   if (whole.g != 9.8) out.push_back(fmt::format("gym-pybullet-drones computes with 9.8 m/s^2, the vehicle says {:.6g}", whole.g));
   if (v.has("ground_effect.radius_sq")) {
     out.push_back("ground effect agrees to first order in (radius/4 height)^2");
-    if (!v.propeller_radius) out.push_back("without propeller_radius in the vehicle file ground effect is left out");
   }
+  if (!whole.propeller_radius)
+    out.push_back(fmt::format("the vehicle file states no propeller_radius: {:.3g} m, half the arm, is written", *v.propeller_radius));
   return out;
 }
 

@@ -31,6 +31,7 @@ struct Field {
 struct Insertion {
   std::size_t at = 0;
   std::string before, after;  ///< around the numbers
+  double absent = 0.0;        ///< what the simulator takes where there is none
 };
 
 /// All fields of a file. Every error names the file and the line.

@@ -71,7 +71,7 @@ void XmlDocument::add_word(Fields& fields, const std::string& name, pugi::xml_no
 }
 
 void XmlDocument::can_insert_behind(Fields& fields, const std::string& name, pugi::xml_node sibling,
-                                    const std::string& tag) const {
+                                    const std::string& tag, double absent) const {
   const std::string closing = std::string("</") + sibling.name() + ">";
   const std::size_t start = static_cast<std::size_t>(sibling.offset_debug());
   const std::size_t end = text_.find(closing, start);
@@ -80,7 +80,8 @@ void XmlDocument::can_insert_behind(Fields& fields, const std::string& name, pug
   const std::size_t indent = text_.find_first_not_of(" \t", line_start);
   fields.can_insert(name, {.at = end + closing.size(),
                            .before = "\n" + text_.substr(line_start, indent - line_start) + "<" + tag + ">",
-                           .after = "</" + tag + ">"});
+                           .after = "</" + tag + ">",
+                           .absent = absent});
 }
 
 std::vector<pugi::xml_node> elements_below(pugi::xml_node node, std::string_view name) {

@@ -91,7 +91,7 @@ void add_motor(const Vehicle& v, const GazeboDialect& dialect, std::size_t n, st
 Fields rotor_links(const Vehicle& v, const Fields* own, const std::vector<Value>& values) {
   Fields links = own ? *own : Fields("", v.file);
   for (const Value& value : values) {
-    const bool of_link = value.name.ends_with(".izz") || (!own && !value.numbers.empty());
+    const bool of_link = value.name.ends_with(".izz") || value.name.ends_with(".pose") || (!own && !value.numbers.empty());
     if (!of_link || (own && !own->has(value.name))) continue;
     Field field = own ? own->at(value.name) : Field{};
     field.numbers.resize(value.numbers.size());
@@ -166,7 +166,8 @@ std::vector<Value> gazebo_values(const Vehicle& v, const Fields* own, const Gaze
   const MassProperties base = sdf_base(links, {.m = body.m, .J = flipped(body.J), .c_B = flipped(body.c_B)},
                                        sdf_body(links, false, hubs));
   out.push_back({"base.mass", {base.m}, "kg", "m less the rotor links"});
-  out.push_back({"base.inertial", {base.c_B.x(), base.c_B.y(), base.c_B.z(), 0, 0, 0}, "m, rad", "centre of gravity"});
+  const Vector3d c = base.c_B.unaryExpr([](double x) { return std::abs(x) < kRounding ? 0.0 : x; });  // m
+  out.push_back({"base.inertial", {c.x(), c.y(), c.z(), 0, 0, 0}, "m, rad", "centre of gravity"});
   const Matrix3d& J = base.J;
   for (const auto& [name, x] : {std::pair("ixx", J(0, 0)), {"iyy", J(1, 1)}, {"izz", J(2, 2)}, {"ixy", J(0, 1)},
                                 {"ixz", J(0, 2)}, {"iyz", J(1, 2)}})

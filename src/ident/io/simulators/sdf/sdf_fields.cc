@@ -15,9 +15,17 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kLargestFile = 16u << 20;
 constexpr const char* kMoments[] = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
-constexpr const char* kMotor[] = {"timeConstantUp", "timeConstantDown", "maxRotVelocity", "motorConstant", "momentConstant",
-                                  "rotorDragCoefficient", "rollingMomentCoefficient", "rotorVelocitySlowdownSim",
-                                  "maxRelativeAirspeed"};
+
+/// An entry of a motor plugin and the plugin's default.
+struct MotorEntry {
+  const char* name;
+  double absent;
+};
+constexpr MotorEntry kMotor[] = {{"timeConstantUp", 1.0 / 80},        {"timeConstantDown", 1.0 / 40},
+                                 {"maxRotVelocity", 838.0},           {"motorConstant", 8.54858e-06},
+                                 {"momentConstant", 0.016},           {"rotorDragCoefficient", 1e-4},
+                                 {"rollingMomentCoefficient", 1e-6},  {"rotorVelocitySlowdownSim", 10.0},
+                                 {"maxRelativeAirspeed", 25.0}};
 
 struct Motor {
   int number = 0;
@@ -71,10 +79,10 @@ class Model {
 
   void add_motor(pugi::xml_node plugin, const std::string& key) {
     if (!plugin) return;
-    for (const char* name : kMotor) {
+    for (const auto& [name, absent] : kMotor) {
       document_.add_numbers(fields_, key + name, plugin.child(name));
       if (!plugin.child(name) && plugin.child("motorConstant"))
-        document_.can_insert_behind(fields_, key + name, plugin.child("motorConstant"), name);
+        document_.can_insert_behind(fields_, key + name, plugin.child("motorConstant"), name, absent);
     }
     document_.add_word(fields_, key + "turningDirection", plugin.child("turningDirection"));
   }
@@ -110,7 +118,7 @@ class Model {
       document_.add_numbers(fields_, key + "mass", inertial.child("mass"));
       for (const char* name : kMoments) document_.add_numbers(fields_, key + name, inertial.child("inertia").child(name));
       if (key == "base." && inertial.child("mass") && !inertial.child("pose"))
-        document_.can_insert_behind(fields_, "base.inertial", inertial.child("mass"), "pose");
+        document_.can_insert_behind(fields_, "base.inertial", inertial.child("mass"), "pose", 0.0);
     }
   }
 
