@@ -1,6 +1,8 @@
 // `ident export`: a vehicle as a simulator's file, into the user's own one, or as samples.
 #include <fmt/format.h>
 
+#include <fstream>
+
 #include "command.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/file/read_bytes.h"
@@ -35,6 +37,16 @@ Vehicle exported_vehicle(const Options& options, Context& context) {
   return with_parameters(vehicle, read_vehicle(options.params));
 }
 
+/// A byte order mark is no part of the text, and is kept.
+std::string byte_order_mark(const std::string& path) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  std::ifstream file(path, std::ios::binary);
+  std::string first(kMark.size(), ' ');
+  return file.read(first.data(), static_cast<std::streamsize>(first.size())) && first == kMark
+             ? first
+             : std::string();
+}
+
 Outcome run(const Options& options, Context& context) {
   const SimulatorFormat& format = find_simulator(options.target);
   if (options.samples > 0 && !options.into.empty())
@@ -53,6 +65,7 @@ Outcome run(const Options& options, Context& context) {
     result.extra["samples"] = options.samples;
   } else if (!options.into.empty()) {
     made = patch_simulator(format, read_bytes(options.into, kLargestFile), options.into, vehicle);
+    made.text.insert(0, byte_order_mark(options.into));
     if (output.empty()) output = options.into;
   } else {
     made = export_to_simulator(format, vehicle);
@@ -67,8 +80,8 @@ Outcome run(const Options& options, Context& context) {
   }
   result.extra["output"] = output;
   context.outputs.add(output, std::move(made.text));
-  result.verdict = options.samples > 0 ? fmt::format("{} sets of values for {} in {}, seed {}.", options.samples, format.target,
-                                                     output, options.seed)
+  result.verdict = options.samples > 0 ? fmt::format("{} sets of values for {} in {}, seed {}.",
+                                                     options.samples, format.target, output, options.seed)
                                        : fmt::format("{} in {}.", format.meaning, output);
   return result;
 }
@@ -78,18 +91,26 @@ Outcome run(const Options& options, Context& context) {
 Action export_command(CLI::App& cli) {
   auto options = std::make_shared<Options>();
   std::string targets;
-  for (const SimulatorFormat& format : simulator_formats()) targets += (targets.empty() ? "" : " ") + std::string(format.target);
+  for (const SimulatorFormat& format : simulator_formats())
+    targets += (targets.empty() ? "" : " ") + std::string(format.target);
   cli.add_option("TARGET", options->target, targets)->required();
-  cli.add_option("--vehicle", options->vehicle, "vehicle file, or a simulator's; none: that of ident.yaml")->type_name("FILE");
-  cli.add_option("--params", options->params, "parameter file, laid over the vehicle file")->type_name("FILE");
-  cli.add_option("-o,--output", options->output, "file to write; none: on standard output")->type_name("FILE");
-  cli.add_option("--into", options->into, "your own file: only its values change; without -o it is replaced")->type_name("FILE");
-  cli.add_option("--samples", options->samples, "a table of that many sets drawn from what is known, instead of a file")
+  cli.add_option("--vehicle", options->vehicle, "vehicle file, or a simulator's; none: that of ident.yaml")
+      ->type_name("FILE");
+  cli.add_option("--params", options->params, "parameter file, laid over the vehicle file")
+      ->type_name("FILE");
+  cli.add_option("-o,--output", options->output, "file to write; none: on standard output")
+      ->type_name("FILE");
+  cli.add_option("--into", options->into, "your own file: only its values change; without -o it is replaced")
+      ->type_name("FILE");
+  cli.add_option("--samples", options->samples,
+                 "a table of that many sets drawn from what is known, instead of a file")
       ->check(CLI::Range(1, 10000000));
   cli.add_option("--seed", options->seed, "of the samples")->capture_default_str();
-  examples(cli, {{"ident export gz --vehicle falcon.yaml -o model.sdf", "a Gazebo model"},
-                 {"ident export gz --vehicle falcon.yaml --into model.sdf", "the same values in your own model"},
-                 {"ident export rotorpy --vehicle falcon.yaml --samples 1000 -o sets.csv", "for domain randomisation"}});
+  examples(cli,
+           {{"ident export gz --vehicle falcon.yaml -o model.sdf", "a Gazebo model"},
+            {"ident export gz --vehicle falcon.yaml --into model.sdf", "the same values in your own model"},
+            {"ident export rotorpy --vehicle falcon.yaml --samples 1000 -o sets.csv",
+             "for domain randomisation"}});
   return [options](Context& context) { return run(*options, context); };
 }
 

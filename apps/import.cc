@@ -35,7 +35,8 @@ Outcome run(const Options& options, Context& context) {
   result.extra["rotors"] = vehicle.rotors.size();
   for (const auto& [name, known] : vehicle.parameters) {
     Parameter p;
-    p.name = name, p.value = known.value, p.unit = parameter_unit(name), p.source = std::string(format->target);
+    p.name = name, p.value = known.value, p.unit = parameter_unit(name),
+    p.source = std::string(format->target);
     result.parameters.push_back(p);
   }
   if (options.output.empty()) {
@@ -43,8 +44,8 @@ Outcome run(const Options& options, Context& context) {
   } else {
     context.outputs.add(options.output, yaml);
     result.extra["output"] = options.output;
-    result.verdict = fmt::format("{}: {} rotors, {} constants, in {}.", format->meaning, vehicle.rotors.size(),
-                                 vehicle.parameters.size(), options.output);
+    result.verdict = fmt::format("{}: {} rotors, {} constants, in {}.", format->meaning,
+                                 vehicle.rotors.size(), vehicle.parameters.size(), options.output);
   }
   return result;
 }
@@ -53,8 +54,11 @@ Outcome run(const Options& options, Context& context) {
 
 Action import_command(CLI::App& cli) {
   auto options = std::make_shared<Options>();
-  cli.add_option("FILE", options->file, "a simulator's file, known by its content")->type_name("FILE")->required();
-  cli.add_option("-o,--output", options->output, "vehicle file to write; none: on standard output")->type_name("FILE");
+  cli.add_option("FILE", options->file, "a simulator's file, known by its content")
+      ->type_name("FILE")
+      ->required();
+  cli.add_option("-o,--output", options->output, "vehicle file to write; none: on standard output")
+      ->type_name("FILE");
   examples(cli, {{"ident import model.sdf -o vehicle.yaml", "a Gazebo model as a vehicle file"},
                  {"ident import hummingbird_params.py", "RotorPy's parameters, on the screen"}});
   return [options](Context& context) { return run(*options, context); };

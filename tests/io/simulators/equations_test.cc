@@ -1,4 +1,5 @@
-// Manoeuvres by each simulator's own equations against ident's model of what the file holds: 1e-6 m, m/s, rad/s.
+// Manoeuvres by each simulator's own equations against ident's model of what the file holds: 1e-6 m, m/s,
+// rad/s.
 #include <gtest/gtest.h>
 
 #include "ident/io/simulators/reduced.h"
@@ -52,15 +53,27 @@ Vehicle with_instant_motors(Vehicle v) {
 }
 
 TEST(SimulatorEquations, RotorPyFliesAsTheModelOfItsFile) {
-  const Exported e("rotorpy", with({{"rotor_drag.kd", 3e-5}, {"axial_inflow.kz", 4e-5}, {"translational_lift.kh", 2e-3},
-                                    {"blade_flapping.kf", 3e-6}, {"parasitic_drag.C", 8e-3}, {"Jxy", 5e-5}, {"Jxz", -4e-5},
-                                    {"Jyz", 3e-5}, {"cg_offset.x", 2e-3}, {"cg_offset.z", 4e-3}}));
+  const Exported e("rotorpy", with({{"rotor_drag.kd", 3e-5},
+                                    {"axial_inflow.kz", 4e-5},
+                                    {"translational_lift.kh", 2e-3},
+                                    {"blade_flapping.kf", 3e-6},
+                                    {"parasitic_drag.C", 8e-3},
+                                    {"Jxy", 5e-5},
+                                    {"Jxz", -4e-5},
+                                    {"Jyz", 3e-5},
+                                    {"cg_offset.x", 2e-3},
+                                    {"cg_offset.z", 4e-3}}));
   expect_agreement(test::rotorpy_equations(*e.fields), e.read_back);
 }
 
 TEST(SimulatorEquations, GazeboFliesAsTheModelOfItsFile) {
-  Vehicle v = with({{"rotor_drag.kd", 3e-5}, {"Jxy", 5e-5}, {"Jxz", -4e-5}, {"Jyz", 3e-5},
-                    {"rotor_mismatch.ratio@2", 0.93}, {"rotor_tilt.x@3", 0.03}, {"rotor_tilt.y@1", -0.02}});
+  Vehicle v = with({{"rotor_drag.kd", 3e-5},
+                    {"Jxy", 5e-5},
+                    {"Jxz", -4e-5},
+                    {"Jyz", 3e-5},
+                    {"rotor_mismatch.ratio@2", 0.93},
+                    {"rotor_tilt.x@3", 0.03},
+                    {"rotor_tilt.y@1", -0.02}});
   const Exported e("gz", v);
   expect_agreement(test::gazebo_equations(*e.fields, 4), e.read_back);
 }
@@ -71,22 +84,25 @@ TEST(SimulatorEquations, GazeboClassicFliesAsTheModelOfItsFile) {
 }
 
 TEST(SimulatorEquations, SihFliesAsTheModelOfItsFileWhereMotorsFollowAtOnce) {
-  Vehicle v = with_instant_motors(with({{"Kdx", 0.2}, {"Kdy", 0.2}, {"Kdz", 0.2}, {"Jxy", 5e-5}, {"Jxz", -4e-5}, {"Jyz", 3e-5}}));
+  Vehicle v = with_instant_motors(
+      with({{"Kdx", 0.2}, {"Kdy", 0.2}, {"Kdz", 0.2}, {"Jxy", 5e-5}, {"Jxz", -4e-5}, {"Jyz", 3e-5}}));
   v.parameters.erase("Omega_0");
   const Exported e("px4-sih", v);
   expect_agreement(test::sih_equations(*e.fields), e.read_back);
 }
 
 TEST(SimulatorEquations, MuJoCoFliesAsTheModelOfItsFileWhereMotorsFollowAtOnce) {
-  Vehicle v = with_instant_motors(with({{"Jxy", 5e-5}, {"Jxz", -4e-5}, {"Jyz", 3e-5}, {"rotor_tilt.x@3", 0.03}}));
+  Vehicle v =
+      with_instant_motors(with({{"Jxy", 5e-5}, {"Jxz", -4e-5}, {"Jyz", 3e-5}, {"rotor_tilt.x@3", 0.03}}));
   v.parameters.erase("Omega_0");
   const Exported e("mujoco", v);
   expect_agreement(test::mujoco_equations(*e.fields, 4), e.read_back);
 }
 
 TEST(SimulatorEquations, ArduPilotFliesAsTheModelOfItsFileButForYaw) {
-  Vehicle v = with({{"parasitic_drag.C", 8e-3}, {"kQ", 1e-16}});  // its yaw torque goes with thrust times command
-  v.parameters.erase("Omega_0");                                  // with an offset its polynomial agrees at hover only
+  Vehicle v =
+      with({{"parasitic_drag.C", 8e-3}, {"kQ", 1e-16}});  // its yaw torque goes with thrust times command
+  v.parameters.erase("Omega_0");  // with an offset its polynomial agrees at hover only
   const Exported e("ardupilot", v);
   Vehicle read = e.read_back;
   set_first_order(read, 1e-7, 0.0);  // motors follow at once there
@@ -105,8 +121,8 @@ TEST(SimulatorEquations, CrazyflowFliesAsTheModelOfItsFileWithoutDragAndGyroscop
   expect_agreement(test::crazyflow_equations(*e.fields), e.read_back);
 }
 
-// ident blends the two time constants within a few rad/s of the target, so that the change has a derivative; a
-// rotor that is 60 rad/s and more away follows one of them alone.
+// ident blends the two time constants within a few rad/s of the target, so that the change has a derivative;
+// a rotor that is 60 rad/s and more away follows one of them alone.
 TEST(SimulatorEquations, RotorsSlowDownByTheTimeConstantOfTheFile) {
   for (const char* target : {"gz", "gz-classic", "crazyflow"}) {
     const Exported e(target, with({{"motor_asymmetry.ratio", 0.7}}));
@@ -142,8 +158,11 @@ TEST(SimulatorEquations, DragAgreesAtHoverSpeedWhereTheFileHoldsAnotherForm) {
   const Eigen::Vector3d rotors = -4 * Omega * Eigen::Vector3d(3e-5 * 4.0, 3e-5 * 2.0, 4e-5 * 1.0);
   EXPECT_LT((drag(test::crazyflow_equations(*flow.fields), rpm, 9.81) - rotors).norm(), 1e-9 * weight);
   const double rpm_98 = hover_speed(urdf.read_back) * 30 / std::numbers::pi;
-  EXPECT_LT((drag(test::pybullet_equations(*urdf.fields), rpm_98, 9.8) - rotors * std::sqrt(9.8 / 9.81)).norm(), 1e-9 * weight);
-  const Eigen::Vector3d isotropic = -4 * hover_speed(sih.read_back) * 0.0 * rotors - sih.read_back.value("Kdx") * s.v;
+  EXPECT_LT(
+      (drag(test::pybullet_equations(*urdf.fields), rpm_98, 9.8) - rotors * std::sqrt(9.8 / 9.81)).norm(),
+      1e-9 * weight);
+  const Eigen::Vector3d isotropic =
+      -4 * hover_speed(sih.read_back) * 0.0 * rotors - sih.read_back.value("Kdx") * s.v;
   const double u = 0.7 * 9.80665 / (4 * sih.fields->number("SIH_T_MAX"));
   EXPECT_LT((drag(test::sih_equations(*sih.fields), u, 9.80665) - isotropic).norm(), 1e-9 * weight);
 }

@@ -36,11 +36,12 @@ std::array<double, 6> by_the_c_compiler(const std::string& header) {
   fs::create_directories(folder);
   std::ofstream(folder / "model.h") << header;
   std::ofstream(folder / "main.c") << kMain;
-  const std::string run = fmt::format("cd {} && cc -std=c99 -pedantic -Wall -Wextra -Werror main.c -o main -lm && ./main",
-                                      folder.string());
+  const std::string run = fmt::format(
+      "cd {} && cc -std=c99 -pedantic -Wall -Wextra -Werror main.c -o main -lm && ./main", folder.string());
   std::array<double, 6> out{};
   if (std::FILE* pipe = ::popen(run.c_str(), "r")) {
-    const int read = std::fscanf(pipe, "%lf %lf %lf %lf %lf %lf", &out[0], &out[1], &out[2], &out[3], &out[4], &out[5]);
+    const int read =
+        std::fscanf(pipe, "%lf %lf %lf %lf %lf %lf", &out[0], &out[1], &out[2], &out[3], &out[4], &out[5]);
     EXPECT_EQ(read, 6) << header;
     EXPECT_EQ(::pclose(pipe), 0);
   }
@@ -66,11 +67,13 @@ TEST(FullModel, CHeaderIsTheModelWithAllEffectsOfTheBody) {
   const SimulatorFormat& format = find_simulator("c99");
   const SimulatorExport made = export_to_simulator(format, v);
   const std::array<double, 6> c = by_the_c_compiler(made.text), ours = by_ident(made.reduced);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(c[i], ours[i], 1e-10 * std::max(1.0, std::abs(ours[i]))) << i;
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(c[i], ours[i], 1e-10 * std::max(1.0, std::abs(ours[i]))) << i;
   // Folding changes nothing about the body: the vehicle as it was, without wind, has the same rates.
   std::erase_if(v.parameters, [](const auto& entry) { return entry.first.starts_with("wind."); });
   const std::array<double, 6> whole = by_ident(v);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(whole[i], ours[i], 1e-9 * std::max(1.0, std::abs(ours[i]))) << i;
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(whole[i], ours[i], 1e-9 * std::max(1.0, std::abs(ours[i]))) << i;
 }
 
 }  // namespace

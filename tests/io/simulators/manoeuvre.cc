@@ -24,8 +24,8 @@ Rate rate_of(const SimulatorEquations& e, const SimulatorState& s, const std::ve
   const SimulatorWrench total = e.wrench(s, motors_dot);
   const Vector3d w = s.w;
   const Quaterniond turned = s.q * Quaterniond(0.0, w.x(), w.y(), w.z());
-  return {s.v, s.q.toRotationMatrix() * total.F / e.m - Vector3d(0, 0, e.g), e.J.inverse() * (total.M - w.cross(e.J * w)),
-          0.5 * turned.coeffs()};
+  return {s.v, s.q.toRotationMatrix() * total.F / e.m - Vector3d(0, 0, e.g),
+          e.J.inverse() * (total.M - w.cross(e.J * w)), 0.5 * turned.coeffs()};
 }
 
 SimulatorState moved(const SimulatorState& s, const Rate& k, double h) {
@@ -35,8 +35,8 @@ SimulatorState moved(const SimulatorState& s, const Rate& k, double h) {
   return next;
 }
 
-std::vector<double> motors_after(const SimulatorEquations& e, const std::vector<double>& from, const std::vector<double>& delta,
-                                 double h, std::vector<double>& rate) {
+std::vector<double> motors_after(const SimulatorEquations& e, const std::vector<double>& from,
+                                 const std::vector<double>& delta, double h, std::vector<double>& rate) {
   std::vector<double> out(from.size());
   rate.resize(from.size());
   for (std::size_t n = 0; n < from.size(); ++n) {
@@ -49,23 +49,26 @@ std::vector<double> motors_after(const SimulatorEquations& e, const std::vector<
 
 Eigen::Matrix<double, 13, 1> in_ned(const SimulatorState& s) {
   Eigen::Matrix<double, 13, 1> out;
-  out << s.x.x(), -s.x.y(), -s.x.z(), s.v.x(), -s.v.y(), -s.v.z(), s.q.w(), s.q.x(), -s.q.y(), -s.q.z(), s.w.x(), -s.w.y(),
-      -s.w.z();
+  out << s.x.x(), -s.x.y(), -s.x.z(), s.v.x(), -s.v.y(), -s.v.z(), s.q.w(), s.q.x(), -s.q.y(), -s.q.z(),
+      s.w.x(), -s.w.y(), -s.w.z();
   return out;
 }
 
 void step(const SimulatorEquations& e, SimulatorState& s, const std::vector<double>& delta, double h) {
   std::vector<double> dot0, dot1, dot2;
   motors_after(e, s.motors, delta, 0.0, dot0);
-  const std::vector<double> middle = motors_after(e, s.motors, delta, h / 2, dot1), end = motors_after(e, s.motors, delta, h, dot2);
+  const std::vector<double> middle = motors_after(e, s.motors, delta, h / 2, dot1),
+                            end = motors_after(e, s.motors, delta, h, dot2);
   const auto with = [](SimulatorState state, const std::vector<double>& motors) {
     state.motors = motors;
     return state;
   };
   const Rate k1 = rate_of(e, s, dot0), k2 = rate_of(e, with(moved(s, k1, h / 2), middle), dot1),
-             k3 = rate_of(e, with(moved(s, k2, h / 2), middle), dot1), k4 = rate_of(e, with(moved(s, k3, h), end), dot2);
+             k3 = rate_of(e, with(moved(s, k2, h / 2), middle), dot1),
+             k4 = rate_of(e, with(moved(s, k3, h), end), dot2);
   s.x += h / 6 * (k1.x + 2 * k2.x + 2 * k3.x + k4.x), s.v += h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v);
-  s.w += h / 6 * (k1.w + 2 * k2.w + 2 * k3.w + k4.w), s.q.coeffs() += h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q);
+  s.w += h / 6 * (k1.w + 2 * k2.w + 2 * k3.w + k4.w),
+      s.q.coeffs() += h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q);
   s.q.normalize();
   s.motors = end;
 }
@@ -84,7 +87,8 @@ Manoeuvre hover_and_steps(const Vehicle& v) {
     };
     std::vector<double> delta;
     for (const Rotor& r : v.rotors)
-      delta.push_back(level + doublet(0.2, 0.02) * (r.r_B.y() < 0 ? 1 : -1) + doublet(0.6, 0.02) * (r.r_B.x() > 0 ? 1 : -1) +
+      delta.push_back(level + doublet(0.2, 0.02) * (r.r_B.y() < 0 ? 1 : -1) +
+                      doublet(0.6, 0.02) * (r.r_B.x() > 0 ? 1 : -1) +
                       (t > 1.0 && t < 1.5 ? 0.03 * r.s : 0.0) + (t > 1.7 && t < 2.0 ? 0.05 : 0.0));
     out.delta.push_back(std::move(delta));
   }
@@ -100,7 +104,8 @@ Manoeuvre fast_forward(const Vehicle& vehicle) {
 Flown fly(const SimulatorEquations& e, const Manoeuvre& manoeuvre) {
   SimulatorState s;
   s.v = {manoeuvre.v_start.x(), -manoeuvre.v_start.y(), -manoeuvre.v_start.z()};
-  for (std::size_t n = 0; n < manoeuvre.delta[0].size(); ++n) s.motors.push_back(e.target(manoeuvre.delta[0][n], n));
+  for (std::size_t n = 0; n < manoeuvre.delta[0].size(); ++n)
+    s.motors.push_back(e.target(manoeuvre.delta[0][n], n));
   Flown out;
   for (const std::vector<double>& delta : manoeuvre.delta) {
     for (int k = 0; k < kSteps; ++k) step(e, s, delta, kRow / kSteps);
@@ -116,7 +121,8 @@ Flown fly(const Vehicle& vehicle, const Manoeuvre& manoeuvre) {
   const std::size_t rotors = vehicle.rotors.size();
   inputs.delta.resize(rotors);
   for (std::size_t row = 0; row < manoeuvre.delta.size(); ++row)
-    for (std::size_t n = 0; n < rotors; ++n) inputs.delta[n].append(static_cast<double>(row) * kRow, manoeuvre.delta[row][n]);
+    for (std::size_t n = 0; n < rotors; ++n)
+      inputs.delta[n].append(static_cast<double>(row) * kRow, manoeuvre.delta[row][n]);
   Flight<double, EffectSet<double>> flight(vehicle, p, effects, inputs);
   FlightState<double> s;
   s.body.q_WB = {1, 0, 0, 0}, s.body.w_B = s.body.x_W = Vec3<double>(0, 0, 0);
@@ -129,8 +135,8 @@ Flown fly(const Vehicle& vehicle, const Manoeuvre& manoeuvre) {
       flight.step_on(s, static_cast<double>(row) * kRow + k * kRow / kSteps, kRow / kSteps, rate);
     const BodyState<double>& b = s.body;
     Eigen::Matrix<double, 13, 1> line;
-    line << b.x_W[0], b.x_W[1], b.x_W[2], b.v_W[0], b.v_W[1], b.v_W[2], b.q_WB[0], b.q_WB[1], b.q_WB[2], b.q_WB[3], b.w_B[0],
-        b.w_B[1], b.w_B[2];
+    line << b.x_W[0], b.x_W[1], b.x_W[2], b.v_W[0], b.v_W[1], b.v_W[2], b.q_WB[0], b.q_WB[1], b.q_WB[2],
+        b.q_WB[3], b.w_B[0], b.w_B[1], b.w_B[2];
     line.segment<4>(6).normalize();
     out.push_back(line);
   }
@@ -139,7 +145,8 @@ Flown fly(const Vehicle& vehicle, const Manoeuvre& manoeuvre) {
 
 double largest_difference(const Flown& a, const Flown& b) {
   double most = a.size() == b.size() ? 0.0 : 1e9;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, (a[i] - b[i]).cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    most = std::max(most, (a[i] - b[i]).cwiseAbs().maxCoeff());
   return std::isfinite(most) ? most : 1e9;
 }
 

@@ -9,14 +9,16 @@
 
 namespace ident::test {
 
-/// Rigid body in a simulator's frames: forward, left, up; the world's z is up. Motors: whatever they stand for there.
+/// Rigid body in a simulator's frames: forward, left, up; the world's z is up. Motors: whatever they stand
+/// for there.
 struct SimulatorState {
   Eigen::Vector3d x = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  ///< body to world
   std::vector<double> motors;
 };
 
-/// Force and moment of everything but gravity, in the body frame, about the centre of gravity; and the body itself.
+/// Force and moment of everything but gravity, in the body frame, about the centre of gravity; and the body
+/// itself.
 struct SimulatorWrench {
   Eigen::Vector3d F, M;
 };
@@ -31,7 +33,7 @@ struct SimulatorEquations {
 
 /// Commands held for 2 ms each: hover, doublets in roll, pitch and yaw, a climb.
 struct Manoeuvre {
-  std::vector<std::vector<double>> delta;  ///< [row][rotor]
+  std::vector<std::vector<double>> delta;             ///< [row][rotor]
   Eigen::Vector3d v_start = Eigen::Vector3d::Zero();  ///< m/s, FRD
 };
 Manoeuvre hover_and_steps(const Vehicle& vehicle);

@@ -22,7 +22,8 @@ constexpr double kRow = 2e-3, kStep = 5e-4;  // s
 
 /// States after each row of a manoeuvre, forward, right, down.
 test::Flown flown_by_mujoco(const std::string& text, const test::Manoeuvre& manoeuvre, double full_thrust) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("ident-" + std::to_string(::getpid()) + ".xml");
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("ident-" + std::to_string(::getpid()) + ".xml");
   std::ofstream(file) << text;
   char error[1000] = "";
   mjModel* model = mj_loadXML(file.c_str(), nullptr, error, sizeof error);
@@ -37,7 +38,8 @@ test::Flown flown_by_mujoco(const std::string& text, const test::Manoeuvre& mano
     data->act[n] = full_thrust * delta * delta;
   }
   const double z = data->qpos[2];
-  data->qvel[0] = manoeuvre.v_start.x(), data->qvel[1] = -manoeuvre.v_start.y(), data->qvel[2] = -manoeuvre.v_start.z();
+  data->qvel[0] = manoeuvre.v_start.x(), data->qvel[1] = -manoeuvre.v_start.y(),
+  data->qvel[2] = -manoeuvre.v_start.z();
   for (const std::vector<double>& delta : manoeuvre.delta) {
     for (int n = 0; n < model->nu; ++n)
       data->ctrl[n] = full_thrust * delta[static_cast<std::size_t>(n)] * delta[static_cast<std::size_t>(n)];
@@ -54,13 +56,15 @@ test::Flown flown_by_mujoco(const std::string& text, const test::Manoeuvre& mano
 // 1e-5: MuJoCo integrates the filter of the motors by the same Runge-Kutta, the other side solves it exactly.
 TEST(MuJoCo, FliesTheExportedModelAsItsEquationsSay) {
   Vehicle v = test::plain_quadrotor();
-  for (const auto& [name, value] : {std::pair("Jxy", 5e-5), {"Jxz", -4e-5}, {"Jyz", 3e-5}, {"rotor_tilt.x@3", 0.03}})
+  for (const auto& [name, value] :
+       {std::pair("Jxy", 5e-5), {"Jxz", -4e-5}, {"Jyz", 3e-5}, {"rotor_tilt.x@3", 0.03}})
     v.parameters[name] = {value, {}};
   const SimulatorFormat& format = find_simulator("mujoco");
   const SimulatorExport made = export_to_simulator(format, v);
   const Fields fields = format.read(made.text, "made");
   const double full = fields.numbers("rotor1.ctrlrange", 2)[1];
-  for (const test::Manoeuvre& manoeuvre : {test::hover_and_steps(made.reduced), test::fast_forward(made.reduced)})
+  for (const test::Manoeuvre& manoeuvre :
+       {test::hover_and_steps(made.reduced), test::fast_forward(made.reduced)})
     EXPECT_LT(test::largest_difference(flown_by_mujoco(made.text, manoeuvre, full),
                                        test::fly(test::mujoco_equations(fields, 4), manoeuvre)),
               1e-5);

@@ -1,6 +1,8 @@
-// A user's own files with comments and odd layout: read by hand-computed values, patched without another byte changed.
+// A user's own files with comments and odd layout: read by hand-computed values, patched without another byte
+// changed.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <regex>
@@ -8,6 +10,7 @@
 #include "ident/io/simulators/reduced.h"
 #include "ident/io/simulators/simulators.h"
 #include "io/simulators/simulator_vehicles.h"
+#include "support/run_program.h"
 
 namespace ident {
 namespace {
@@ -21,7 +24,8 @@ Vehicle imported(const std::string& name) {
   const std::string text = own_file(name);
   const SimulatorFormat* format = recognised_simulator(text);
   EXPECT_NE(format, nullptr) << name;
-  EXPECT_TRUE(format == nullptr || name.starts_with(format->target)) << name << " is taken for " << format->target;
+  EXPECT_TRUE(format == nullptr || name.starts_with(format->target))
+      << name << " is taken for " << format->target;
   return format ? vehicle_of_simulator(*format, text, name) : Vehicle();
 }
 
@@ -29,7 +33,9 @@ Vehicle imported(const std::string& name) {
 std::vector<std::string> changed_lines(const std::string& a, const std::string& b) {
   std::istringstream old_text(a), new_text(b);
   std::vector<std::string> out;
-  const auto trimmed = [](const std::string& line) { return std::regex_replace(line, std::regex("^\\s+|\\s+$"), ""); };
+  const auto trimmed = [](const std::string& line) {
+    return std::regex_replace(line, std::regex("^\\s+|\\s+$"), "");
+  };
   for (std::string x, y; std::getline(old_text, x) && std::getline(new_text, y);)
     if (x != y) out.push_back(trimmed(x) + " -> " + trimmed(y));
   return out;
@@ -43,7 +49,8 @@ TEST(OwnFiles, GazeboModelIsOneBodyWithItsRotors) {
   EXPECT_NEAR(v.value("cg_offset.z"), -c, 1e-12);
   const double Jzz = 0.04 + 4 * (2.649858234714004e-05 + rotor * 2 * 0.174 * 0.174);
   EXPECT_NEAR(v.value("Jzz"), Jzz, 1e-12);
-  const double Jxx = 0.02166666666666667 + 2 * c * c + 4 * (3.8464910483993325e-07 + rotor * (0.174 * 0.174 + (0.06 - c) * (0.06 - c)));
+  const double Jxx = 0.02166666666666667 + 2 * c * c +
+                     4 * (3.8464910483993325e-07 + rotor * (0.174 * 0.174 + (0.06 - c) * (0.06 - c)));
   EXPECT_NEAR(v.value("Jxx"), Jxx, 1e-12);
   EXPECT_NEAR(v.value("kT"), 8.54858e-06, 1e-18);
   EXPECT_NEAR(v.value("kQ"), 8.54858e-06 * 0.016, 1e-18);
@@ -51,7 +58,8 @@ TEST(OwnFiles, GazeboModelIsOneBodyWithItsRotors) {
   EXPECT_NEAR(v.value("Jp"), 2.649858234714004e-06, 1e-18);
   EXPECT_NEAR(motor_lags(v).up, 0.0125, 1e-12);
   EXPECT_NEAR(motor_lags(v).down, 0.025, 1e-12);
-  // Plugins stand in the order 3, 0, 2, 1: the motors' numbers count. Front right is the first, counter-clockwise.
+  // Plugins stand in the order 3, 0, 2, 1: the motors' numbers count. Front right is the first,
+  // counter-clockwise.
   EXPECT_LT((v.rotors[0].r_B - Eigen::Vector3d(0.174, 0.174, -0.06)).norm(), 1e-12);
   EXPECT_EQ(v.rotors[0].s, 1);
   EXPECT_EQ(v.rotors[3].s, -1);
@@ -143,8 +151,9 @@ TEST_P(OwnFile, DiffersFromTheUsersOnlyInNumbers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Simulators, OwnFile,
-                         testing::Values("gz.sdf", "gz-classic.sdf", "px4-sih.params", "px4.airframe", "ardupilot.json",
-                                         "mujoco.xml", "rotorpy.py", "urdf.urdf", "crazyflow.toml"));
+                         testing::Values("gz.sdf", "gz-classic.sdf", "px4-sih.params", "px4.airframe",
+                                         "ardupilot.json", "mujoco.xml", "rotorpy.py", "urdf.urdf",
+                                         "crazyflow.toml"));
 
 TEST(OwnFiles, OnlyThePatchedLineChanges) {
   const std::string text = own_file("rotorpy.py");
@@ -154,18 +163,50 @@ TEST(OwnFiles, OnlyThePatchedLineChanges) {
   const std::string patched = patch_simulator(find_simulator("rotorpy"), text, "rotorpy.py", v).text;
   const std::vector<std::string> lines = changed_lines(text, patched);
   ASSERT_EQ(lines.size(), 2U);
-  EXPECT_TRUE(lines[0].starts_with("'r1': d*np.array([ 0.70710678118, 0.70710678118, 0]), -> 'r1': np.array([0.031405591590")) << lines[0];
-  EXPECT_EQ(lines[1], "'k_eta': 2.3e-08,           # thrust coefficient N/(rad/s)**2 -> 'k_eta': 2.5e-08,           # thrust coefficient "
-                      "N/(rad/s)**2");
+  EXPECT_TRUE(lines[0].starts_with(
+      "'r1': d*np.array([ 0.70710678118, 0.70710678118, 0]), -> 'r1': np.array([0.031405591590"))
+      << lines[0];
+  EXPECT_EQ(lines[1],
+            "'k_eta': 2.3e-08,           # thrust coefficient N/(rad/s)**2 -> 'k_eta': 2.5e-08,           # "
+            "thrust coefficient "
+            "N/(rad/s)**2");
+}
+
+// The form of PX4's x500: one file with the motors includes another one with the masses.
+TEST(OwnFiles, AnIncludedModelBesideTheFolderCounts) {
+  const std::string text = own_file("gz.sdf");
+  const std::size_t plugins = text.find("    <plugin");
+  const std::filesystem::path folder = test_folder();
+  for (const char* name : {"mine", "mine_base"}) std::filesystem::create_directories(folder / name);
+  const std::string file = (folder / "mine/model.sdf").string();
+  const std::string top =
+      "<sdf version='1.9'>\n  <model name='mine'>\n    <include "
+      "merge='true'><uri>model://mine_base</uri></include>\n" +
+      text.substr(plugins);
+  std::ofstream(folder / "mine_base/model.sdf") << text.substr(0, plugins) << "  </model>\n</sdf>\n";
+  const SimulatorFormat& format = find_simulator("gz");
+  Vehicle v = vehicle_of_simulator(format, top, file);
+  const Vehicle whole = imported("gz.sdf");
+  ASSERT_EQ(v.parameters.size(), whole.parameters.size());
+  for (const auto& [name, known] : whole.parameters) EXPECT_EQ(v.value(name), known.value) << name;
+  // What stands in the other file is told, not changed.
+  v.parameters["m"].value *= 1.1, v.parameters["kT"].value *= 1.1;
+  const SimulatorExport patched = patch_simulator(format, top, file, v);
+  EXPECT_EQ(changed_lines(top, patched.text).size(), 8U);  // motorConstant and momentConstant of four rotors
+  ASSERT_FALSE(patched.notes.empty());
+  EXPECT_NE(patched.notes[0].find("mine_base/model.sdf: patch that file too"), std::string::npos)
+      << patched.notes[0];
 }
 
 TEST(OwnFiles, AMissingElementIsAddedBesideItsNeighbour) {
-  const std::string text = own_file("gz.sdf");
-  Vehicle v = imported("gz.sdf");
-  v.parameters["rotor_drag.kd"] = {8.06428e-05, {}};  // the plugin of rotor 2 states none
+  const Vehicle v = imported("gz.sdf");
+  std::string text = own_file("gz.sdf");
+  const std::string line = "      <rotorDragCoefficient>8.06428e-05</rotorDragCoefficient>\n";
+  text.erase(text.rfind(line), line.size());  // the plugin of one rotor states none: Gazebo takes 1e-4
   const SimulatorExport patched = patch_simulator(find_simulator("gz"), text, "gz.sdf", v);
-  EXPECT_EQ(patched.text.size(), text.size() + std::string("\n      <rotorDragCoefficient>8.06428e-05</rotorDragCoefficient>").size());
-  EXPECT_NE(patched.text.find("<motorConstant>8.54858e-06</motorConstant>\n      <rotorDragCoefficient>8.06428e-05</rotorDragCoefficient>\n"),
+  EXPECT_EQ(patched.text.size(), text.size() + line.size());
+  EXPECT_NE(patched.text.find("<motorConstant>8.54858e-06</motorConstant>\n      "
+                              "<rotorDragCoefficient>8.06428e-05</rotorDragCoefficient>\n"),
             std::string::npos);
 }
 

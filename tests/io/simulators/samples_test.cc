@@ -19,11 +19,12 @@ TEST(Samples, HaveTheMeanDeviationAndCorrelationOfTheVehicle) {
   const Vehicle v = test::plain_quadrotor();
   double m = 0, mm = 0, k = 0, kk = 0, mk = 0;
   for (const Vehicle& drawn : sampled_vehicles(v, kCount, 7)) {
-    const double a = std::log(drawn.value("m") / 0.7) / (0.002 / 0.7), b = std::log(drawn.value("kT") / 6.1e-6) / (1e-7 / 6.1e-6);
+    const double a = std::log(drawn.value("m") / 0.7) / (0.002 / 0.7),
+                 b = std::log(drawn.value("kT") / 6.1e-6) / (1e-7 / 6.1e-6);
     m += a, mm += a * a, k += b, kk += b * b, mk += a * b;
   }
-  // Standard normal with correlation 0.6: four standard errors are 0.028 of a mean, 0.04 of a variance, 0.033 of
-  // the product.
+  // Standard normal with correlation 0.6: four standard errors are 0.028 of a mean, 0.04 of a variance, 0.033
+  // of the product.
   EXPECT_NEAR(m / kCount, 0.0, 0.03);
   EXPECT_NEAR(k / kCount, 0.0, 0.03);
   EXPECT_NEAR(mm / kCount, 1.0, 0.04);
@@ -59,7 +60,8 @@ TEST(Samples, NeedADeviation) {
   EXPECT_THROW(sampled_vehicles(v, 1, 1), DataError);
 }
 
-// kQ/kT has the relative deviations of both, which are independent: sqrt((3e-9/1.1e-7)^2 + (1e-7/6.1e-6)^2) = 0.0318.
+// kQ/kT has the relative deviations of both, which are independent: sqrt((3e-9/1.1e-7)^2 + (1e-7/6.1e-6)^2) =
+// 0.0318.
 TEST(Exports, StateTheIntervalOfWhatIsMadeOfTwoConstants) {
   const Values values = values_for(find_simulator("gz"), test::plain_quadrotor());
   const auto [low, high] = values.interval("rotor1.momentConstant");

@@ -17,9 +17,10 @@ inline Vehicle plain_quadrotor() {
   const double x = 0.13, y = 0.11, z = -0.02;
   for (const auto& [sx, sy, spin] : {std::tuple(1, 1, 1), {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}})
     v.rotors.push_back({.r_B = {sx * x, sy * y, z}, .s = spin});
-  v.parameters = {{"m", {0.7, 0.002}},      {"Jxx", {3.1e-3, 1e-4}}, {"Jyy", {3.7e-3, 1e-4}}, {"Jzz", {5.9e-3, 2e-4}},
-                  {"kT", {6.1e-6, 1e-7}},   {"kQ", {1.1e-7, 3e-9}},  {"km", {780.0, 4.0}},    {"omega_m", {61.0, 2.0}},
-                  {"zeta_m", {0.93, 0.05}}, {"Omega_0", {43.0, 1.0}}, {"Jp", {4.7e-6, 1e-7}}};
+  v.parameters = {{"m", {0.7, 0.002}},      {"Jxx", {3.1e-3, 1e-4}},  {"Jyy", {3.7e-3, 1e-4}},
+                  {"Jzz", {5.9e-3, 2e-4}},  {"kT", {6.1e-6, 1e-7}},   {"kQ", {1.1e-7, 3e-9}},
+                  {"km", {780.0, 4.0}},     {"omega_m", {61.0, 2.0}}, {"zeta_m", {0.93, 0.05}},
+                  {"Omega_0", {43.0, 1.0}}, {"Jp", {4.7e-6, 1e-7}}};
   v.correlation.names = {"m", "kT"};
   v.correlation.matrix = Eigen::Matrix2d{{1.0, 0.6}, {0.6, 1.0}};
   return v;
@@ -27,12 +28,14 @@ inline Vehicle plain_quadrotor() {
 
 /// The same with one parameter of an effect at a typical distance from its null value.
 inline Vehicle with_effect(Vehicle v, const EffectEntry& effect, const EffectParameter& parameter) {
-  v.parameters[std::string(effect.info.name) + "." + std::string(parameter.name)] = {parameter.null_value + parameter.typical, {}};
+  v.parameters[std::string(effect.info.name) + "." + std::string(parameter.name)] = {
+      parameter.null_value + parameter.typical, {}};
   v.propeller_radius = 0.1;
   return v;
 }
 
-/// The plain one, and one for each parameter of each effect of at most four rotors, and one with many at once.
+/// The plain one, and one for each parameter of each effect of at most four rotors, and one with many at
+/// once.
 inline std::vector<Vehicle> vehicles_with_effects() {
   std::vector<Vehicle> list = {plain_quadrotor()};
   Vehicle many = plain_quadrotor();
@@ -49,7 +52,8 @@ inline std::vector<Vehicle> vehicles_with_effects() {
     for (const char* name : {"m", "kT", "kQ"}) v.parameters[name].value *= scale;
     for (const char* name : {"Jxx", "Jyy", "Jzz", "Jp"}) v.parameters[name].value *= scale * scale;
     if (scale < 1)  // sizes for 0.5 kg, more than all of the inertia here
-      for (const char* name : {"gyroscopic.Jp", "products_of_inertia.Jxy", "products_of_inertia.Jxz", "products_of_inertia.Jyz"})
+      for (const char* name :
+           {"gyroscopic.Jp", "products_of_inertia.Jxy", "products_of_inertia.Jxz", "products_of_inertia.Jyz"})
         v.parameters.erase(name);
     v.parameters["Jxy"] = {0.02 * v.value("Jxx"), {}};
     list.push_back(v);

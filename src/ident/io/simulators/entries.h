@@ -13,8 +13,8 @@
 
 namespace ident {
 
-/// Rotor speed at full command, rad/s, where a file speaks of thrust only. Nothing but the scale of kT, kQ and
-/// km depends on it.
+/// Rotor speed at full command, rad/s, where a file speaks of thrust only. Nothing but the scale of kT, kQ
+/// and km depends on it.
 inline constexpr double kAssumedFullSpeed = 1000.0;
 
 /// Forward, left, up to forward, right, down and back.
@@ -49,8 +49,8 @@ inline void set_by_full_thrust(Vehicle& v, double thrust, double torque) {
   v.parameters["km"] = {kAssumedFullSpeed, {}};
 }
 
-/// Linear drag, N s/m, that the rotors and the airframe of a vehicle have on the whole, for files that hold no
-/// other. Rotors at hover speed; the airframe by its secant at `speed` m/s.
+/// Linear drag, N s/m, that the rotors and the airframe of a vehicle have on the whole, for files that hold
+/// no other. Rotors at hover speed; the airframe by its secant at `speed` m/s.
 inline double whole_linear_drag(const Vehicle& v, double speed) {
   const double world = (value_or_zero(v, "Kdx") + value_or_zero(v, "Kdy") + value_or_zero(v, "Kdz")) / 3.0;
   return world + static_cast<double>(v.rotors.size()) * value_or_zero(v, "rotor_drag.kd") * hover_speed(v) +

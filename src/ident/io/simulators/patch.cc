@@ -21,7 +21,8 @@ bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::
 
 std::string joined(const Value& value, std::string_view separator) {
   std::string out;
-  for (const double number : value.numbers) out += (out.empty() ? "" : std::string(separator)) + value_text(number);
+  for (const double number : value.numbers)
+    out += (out.empty() ? "" : std::string(separator)) + value_text(number);
   return out;
 }
 
@@ -33,7 +34,8 @@ void edit_field(const Fields& fields, const Value& value, std::vector<Edit>& edi
     return;
   }
   if (field.numbers.size() != value.numbers.size())
-    fields.fail(value.name, fmt::format("has {} numbers, the vehicle {}", field.numbers.size(), value.numbers.size()));
+    fields.fail(value.name,
+                fmt::format("has {} numbers, the vehicle {}", field.numbers.size(), value.numbers.size()));
   bool all_same = true;
   for (std::size_t i = 0; i < value.numbers.size(); ++i)
     all_same = all_same && same(field.numbers[i].value, value.numbers[i]);
@@ -49,14 +51,16 @@ void edit_field(const Fields& fields, const Value& value, std::vector<Edit>& edi
 
 }  // namespace
 
-SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string& text, const std::string& file,
-                                const Vehicle& vehicle) {
+SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string& text,
+                                const std::string& file, const Vehicle& vehicle) {
   if (!format.recognises)
     throw UsageError(fmt::format("--into: files of {} are only written, not patched", format.target));
   if (!format.recognises(text))
-    throw InputError(file, 0, "", fmt::format("is no file of {} (or its fields are not there)", format.target));
+    throw InputError(file, 0, "",
+                     fmt::format("is no file of {} (or its fields are not there)", format.target));
   const Fields fields = format.read(text, file);
-  SimulatorExport out{.reduced = held_by(format, vehicle), .lost = lost(vehicle, format.holds, format.target)};
+  SimulatorExport out{.reduced = held_by(format, vehicle),
+                      .lost = lost(vehicle, format.holds, format.target)};
   if (format.remarks)
     for (std::string& remark : format.remarks(vehicle, out.reduced)) out.lost.push_back(std::move(remark));
   std::vector<Edit> edits;
@@ -65,16 +69,18 @@ SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string
       std::vector<Edit> there;
       edit_field(fields, value, there);
       if (!there.empty())
-        out.notes.push_back(fmt::format("{}: {}: stands in {}: patch that file too (it would be {})", file, value.name,
-                                        fields.at(value.name).elsewhere, joined(value, " ")));
+        out.notes.push_back(fmt::format("{}: {}: stands in {}: patch that file too (it would be {})", file,
+                                        value.name, fields.at(value.name).elsewhere, joined(value, " ")));
     } else if (fields.has(value.name)) {
       edit_field(fields, value, edits);
     } else if (const Insertion* where = fields.insertion(value.name)) {
       if (!std::ranges::all_of(value.numbers, [&](double x) { return same(x, where->absent); }))
         edits.push_back({where->at, 0, where->before + joined(value, " ") + where->after});
-    } else if (value.word.empty() && std::ranges::any_of(value.numbers, [](double x) { return x != 0.0; })) {
-      out.notes.push_back(fmt::format("{}: {}: stands nowhere in the file and was not added (it would be {})", file,
-                                      value.name, joined(value, " ")));
+    } else if (const double absent = value.absent.value_or(0.0);
+               value.word.empty() &&
+               std::ranges::any_of(value.numbers, [&](double x) { return !same(x, absent); })) {
+      out.notes.push_back(fmt::format("{}: {}: stands nowhere in the file and was not added (it would be {})",
+                                      file, value.name, joined(value, " ")));
     }
   }
   std::ranges::stable_sort(edits, {}, &Edit::at);

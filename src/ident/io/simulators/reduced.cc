@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 template <class Seam>
 bool enters(EffectId id) {
   bool found = false;
-#define IDENT_EFFECT(file, Type)                                                            \
-  if constexpr (requires(const double* p, Seam& seam) { Type::apply(p, seam); })            \
+#define IDENT_EFFECT(file, Type)                                                 \
+  if constexpr (requires(const double* p, Seam& seam) { Type::apply(p, seam); }) \
     found = found || id == EffectId::file;
 #include "ident/effects/effects.def"
 #undef IDENT_EFFECT
@@ -45,7 +45,8 @@ Seam with_effects(const Vehicle& vehicle, Seam seam) {
 
 void erase_effect(Vehicle& vehicle, std::string_view effect) {
   std::erase_if(vehicle.parameters, [&](const auto& entry) {
-    return entry.first.size() > effect.size() && entry.first.starts_with(effect) && entry.first[effect.size()] == '.';
+    return entry.first.size() > effect.size() && entry.first.starts_with(effect) &&
+           entry.first[effect.size()] == '.';
   });
 }
 
@@ -79,8 +80,8 @@ Vector3d mounted_axis(const Vehicle& vehicle, std::size_t n) {
 }
 
 /// The rotors in the order of the only layout that a target has.
-std::vector<Rotor> ordered(const Vehicle& vehicle, const std::vector<FixedRotor>& layout, std::string_view target,
-                           std::vector<std::size_t>& order) {
+std::vector<Rotor> ordered(const Vehicle& vehicle, const std::vector<FixedRotor>& layout,
+                           std::string_view target, std::vector<std::size_t>& order) {
   const auto refuse = [&](const std::string& what) {
     throw UsageError(fmt::format("{}: {} {}", vehicle.file.empty() ? "vehicle" : vehicle.file, target, what));
   };
@@ -105,7 +106,8 @@ std::vector<Rotor> ordered(const Vehicle& vehicle, const std::vector<FixedRotor>
 void even_out(std::vector<Rotor>& rotors) {
   double x = 0, y = 0, z = 0;
   const double n = static_cast<double>(rotors.size());
-  for (const Rotor& r : rotors) x += std::abs(r.r_B.x()) / n, y += std::abs(r.r_B.y()) / n, z += r.r_B.z() / n;
+  for (const Rotor& r : rotors)
+    x += std::abs(r.r_B.x()) / n, y += std::abs(r.r_B.y()) / n, z += r.r_B.z() / n;
   for (Rotor& r : rotors)
     r.r_B = {as_stated(std::copysign(x, r.r_B.x())), as_stated(std::copysign(y, r.r_B.y())), as_stated(z)};
 }
@@ -167,9 +169,25 @@ void reduce_motor(const Vehicle& whole, const Capacity& holds, Vehicle& v) {
 }
 
 bool kept(const std::string& name, const Capacity& holds) {
-  static const std::set<std::string_view> always = {"m",   "Jxx", "Jyy",     "Jzz",     "Jxy",    "Jxz",       "Jyz", "Jp",
-                                                    "kT",  "kQ",  "km",      "Omega_0", "omega_m", "zeta_m",   "dead_time",
-                                                    "cg_offset.x", "cg_offset.y", "cg_offset.z", "motor_asymmetry.ratio"};
+  static const std::set<std::string_view> always = {"m",
+                                                    "Jxx",
+                                                    "Jyy",
+                                                    "Jzz",
+                                                    "Jxy",
+                                                    "Jxz",
+                                                    "Jyz",
+                                                    "Jp",
+                                                    "kT",
+                                                    "kQ",
+                                                    "km",
+                                                    "Omega_0",
+                                                    "omega_m",
+                                                    "zeta_m",
+                                                    "dead_time",
+                                                    "cg_offset.x",
+                                                    "cg_offset.y",
+                                                    "cg_offset.z",
+                                                    "motor_asymmetry.ratio"};
   return always.contains(name) || holds.constants.contains(name) || name.starts_with("rotor_mismatch.ratio@");
 }
 
@@ -196,7 +214,8 @@ void set_first_order(Vehicle& vehicle, double up, double down) {
 MassProperties mass_properties(const Vehicle& vehicle) {
   const auto get = [&](const char* name) { return vehicle.has(name) ? vehicle.value(name) : 0.0; };
   MassSeam<double> seam{get("m"), {}, Vec3<double>(0, 0, 0), get("Jp")};
-  seam.J << get("Jxx"), get("Jxy"), get("Jxz"), get("Jxy"), get("Jyy"), get("Jyz"), get("Jxz"), get("Jyz"), get("Jzz");
+  seam.J << get("Jxx"), get("Jxy"), get("Jxz"), get("Jxy"), get("Jyy"), get("Jyz"), get("Jxz"), get("Jyz"),
+      get("Jzz");
   seam = with_effects(vehicle, seam);
   return {seam.m, seam.Jp, seam.J, {seam.c_B[0], seam.c_B[1], seam.c_B[2]}};
 }
@@ -207,7 +226,8 @@ void set_mass_properties(Vehicle& v, const MassProperties& body) {
   const auto length = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
   state(v, "m", body.m, 0.0);
   state(v, "Jxx", body.J(0, 0), 0.0), state(v, "Jyy", body.J(1, 1), 0.0), state(v, "Jzz", body.J(2, 2), 0.0);
-  state(v, "Jxy", product(body.J(0, 1)), 0.0), state(v, "Jxz", product(body.J(0, 2)), 0.0), state(v, "Jyz", product(body.J(1, 2)), 0.0);
+  state(v, "Jxy", product(body.J(0, 1)), 0.0), state(v, "Jxz", product(body.J(0, 2)), 0.0),
+      state(v, "Jyz", product(body.J(1, 2)), 0.0);
   state(v, "Jp", body.Jp, 0.0);
   state(v, "cg_offset.x", length(body.c_B.x()), 0.0), state(v, "cg_offset.y", length(body.c_B.y()), 0.0);
   state(v, "cg_offset.z", length(body.c_B.z()), 0.0);
@@ -235,7 +255,8 @@ Vehicle reduced(const Vehicle& vehicle, const Capacity& holds, std::string_view 
   for (const char* name : holds.needs)
     if (!vehicle.has(name) || !(vehicle.value(name) > 0))
       throw UsageError(fmt::format("{}: {}: a positive value is needed to export to {}", file, name, target));
-  if (vehicle.rotors.empty()) throw UsageError(file + ": rotors: an export needs them, or a layout with an arm");
+  if (vehicle.rotors.empty())
+    throw UsageError(file + ": rotors: an export needs them, or a layout with an arm");
   Vehicle v = vehicle;
   v.correlation = {}, v.warnings.clear();
   for (auto& [name, known] : v.parameters) known.std.reset();

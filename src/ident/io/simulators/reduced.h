@@ -1,4 +1,5 @@
-// A vehicle as a simulator's file can hold it: effects folded into the constants they change, the rest left out.
+// A vehicle as a simulator's file can hold it: effects folded into the constants they change, the rest left
+// out.
 #pragma once
 
 #include <string>

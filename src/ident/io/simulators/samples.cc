@@ -1,4 +1,5 @@
-// x = mean + S L z with z normal; L L' is the correlation, from its eigenvalues so that a singular one serves too.
+// x = mean + S L z with z normal; L L' is the correlation, from its eigenvalues so that a singular one serves
+// too.
 #include "ident/io/simulators/samples.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,8 @@
 namespace ident {
 namespace {
 
-constexpr int kMostTries = 1000;  // draws for one sample: a body is found at once unless nothing is known of J
+constexpr int kMostTries =
+    1000;  // draws for one sample: a body is found at once unless nothing is known of J
 
 struct Drawn {
   std::string name;
@@ -27,7 +29,8 @@ struct Drawn {
 bool positive_by_nature(const std::string& name, double value) {
   if (!(value > 0)) return false;
   if (name == "Jxx" || name == "Jyy" || name == "Jzz") return true;
-  if (const EffectParameter* parameter = find_effect_parameter(name)) return parameter->range == Range::positive;
+  if (const EffectParameter* parameter = find_effect_parameter(name))
+    return parameter->range == Range::positive;
   const ParameterInfo* info = find_parameter(name);
   return info && info->kind == ParameterKind::positive;
 }
@@ -45,16 +48,18 @@ Eigen::MatrixXd factor(const Vehicle& vehicle, const std::vector<Drawn>& list) {
   Eigen::MatrixXd correlation(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k < n; ++k)
-      correlation(i, k) =
-          vehicle.correlation.of(list[static_cast<std::size_t>(i)].name, list[static_cast<std::size_t>(k)].name);
+      correlation(i, k) = vehicle.correlation.of(list[static_cast<std::size_t>(i)].name,
+                                                 list[static_cast<std::size_t>(k)].name);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(correlation);
   return solved.eigenvectors() * solved.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-/// Whether a body can have this inertia: positive definite, and no principal moment above the sum of the others.
+/// Whether a body can have this inertia: positive definite, and no principal moment above the sum of the
+/// others.
 bool is_body(const Vehicle& vehicle) {
   const Eigen::Vector3d J =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass_properties(vehicle).J, Eigen::EigenvaluesOnly).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass_properties(vehicle).J, Eigen::EigenvaluesOnly)
+          .eigenvalues();
   return J[0] > 0 && J[2] <= J[0] + J[1];
 }
 
@@ -89,14 +94,17 @@ std::vector<Vehicle> sampled_vehicles(const Vehicle& vehicle, std::size_t count,
   return out;
 }
 
-std::string samples_csv(const SimulatorFormat& format, const std::vector<Vehicle>& vehicles, std::uint64_t seed) {
-  std::string out = fmt::format("# {} sets of the values of {}, drawn by ident, seed {}\n", vehicles.size(), format.target, seed);
+std::string samples_csv(const SimulatorFormat& format, const std::vector<Vehicle>& vehicles,
+                        std::uint64_t seed) {
+  std::string out = fmt::format("# {} sets of the values of {}, drawn by ident, seed {}\n", vehicles.size(),
+                                format.target, seed);
   for (std::size_t row = 0; row < vehicles.size(); ++row) {
     std::string header, line;
     for (const Value& value : format.values(held_by(format, vehicles[row]), nullptr))
       for (std::size_t i = 0; i < value.numbers.size(); ++i) {
         if (row == 0)
-          header += (header.empty() ? "" : ",") + value.name + (value.numbers.size() > 1 ? fmt::format("[{}]", i + 1) : "");
+          header += (header.empty() ? "" : ",") + value.name +
+                    (value.numbers.size() > 1 ? fmt::format("[{}]", i + 1) : "");
         line += (line.empty() ? "" : ",") + value_text(value.numbers[i]);
       }
     if (row == 0) out += header + "\n";

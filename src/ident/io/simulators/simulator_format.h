@@ -1,4 +1,5 @@
-// What a simulator's file format states about itself. One file in formats/ and one line in simulators.def each.
+// What a simulator's file format states about itself. One file in formats/ and one line in simulators.def
+// each.
 #pragma once
 
 #include <string>

@@ -29,8 +29,8 @@ const std::vector<SimulatorFormat>& formats() {
 }
 
 /// First numbers of all entries for a vehicle with one constant moved.
-std::vector<double> moved(const SimulatorFormat& format, Vehicle vehicle, const Fields* own, const std::string& name,
-                          double by) {
+std::vector<double> moved(const SimulatorFormat& format, Vehicle vehicle, const Fields* own,
+                          const std::string& name, double by) {
   vehicle.parameters[name].value += by;
   std::vector<double> numbers;
   for (const Value& value : format.values(held_by(format, vehicle), own))
@@ -46,7 +46,8 @@ std::vector<double> deviations(const SimulatorFormat& format, const Vehicle& veh
   for (const auto& [name, known] : vehicle.parameters) {
     if (!known.std || !(*known.std > 0)) continue;
     const double h = 0.1 * std::min(*known.std, known.value != 0 ? std::abs(known.value) : *known.std);
-    const std::vector<double> up = moved(format, vehicle, own, name, h), down = moved(format, vehicle, own, name, -h);
+    const std::vector<double> up = moved(format, vehicle, own, name, h),
+                              down = moved(format, vehicle, own, name, -h);
     if (up.size() != count || down.size() != count) continue;
     std::vector<double> slope(count);
     for (std::size_t i = 0; i < count; ++i) slope[i] = (up[i] - down[i]) / (2 * h) * *known.std;
@@ -71,7 +72,8 @@ void expect_possible(const Vehicle& vehicle, const Fields& fields) {
     if (!std::isfinite(known.value))
       throw InputError(fields.file(), 0, name, "is not finite: a value in the file is zero or too large");
     if (info && (moment || info->kind == ParameterKind::positive) && !(known.value > 0))
-      throw InputError(fields.file(), 0, name, fmt::format("would be {:.4g}, and has to be positive", known.value));
+      throw InputError(fields.file(), 0, name,
+                       fmt::format("would be {:.4g}, and has to be positive", known.value));
   }
 }
 
@@ -95,7 +97,8 @@ const SimulatorFormat* recognised_simulator(std::string_view text) {
   return nullptr;
 }
 
-Vehicle vehicle_of_simulator(const SimulatorFormat& format, const std::string& text, const std::string& file) {
+Vehicle vehicle_of_simulator(const SimulatorFormat& format, const std::string& text,
+                             const std::string& file) {
   const Fields fields = format.read(text, file);
   Vehicle vehicle = format.vehicle(fields);
   vehicle.file = file;
@@ -120,7 +123,8 @@ Values values_for(const SimulatorFormat& format, const Vehicle& vehicle, const F
 }
 
 SimulatorExport export_to_simulator(const SimulatorFormat& format, const Vehicle& vehicle) {
-  SimulatorExport out{.reduced = held_by(format, vehicle), .lost = lost(vehicle, format.holds, format.target)};
+  SimulatorExport out{.reduced = held_by(format, vehicle),
+                      .lost = lost(vehicle, format.holds, format.target)};
   if (format.remarks)
     for (std::string& remark : format.remarks(vehicle, out.reduced)) out.lost.push_back(std::move(remark));
   out.text = format.page(out.reduced, values_for(format, vehicle));

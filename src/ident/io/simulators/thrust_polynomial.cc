@@ -12,7 +12,9 @@ namespace {
 constexpr double kOffsetCurvature = 2.0 / 1.02;
 constexpr double kRounding = 1e-13;  // of the thrust at hover
 
-double cleaned(double part, double whole) { return std::abs(part) < kRounding * std::abs(whole) ? 0.0 : part; }
+double cleaned(double part, double whole) {
+  return std::abs(part) < kRounding * std::abs(whole) ? 0.0 : part;
+}
 
 }  // namespace
 
@@ -25,7 +27,8 @@ ThrustPolynomial thrust_polynomial(const Vehicle& v) {
   const double Omega = hover_speed(v), T = v.value("kT") * Omega * Omega;
   const double slope = value_or_zero(v, "thrust_curve.c"), offset = value_or_zero(v, "thrust_curve.offset");
   if (slope == 0.0 && offset == 0.0) return {0.0, 0.0, v.value("kT")};
-  const double first = T * (2 + slope) / Omega, second = T * (2 + 4 * slope + kOffsetCurvature * offset) / (Omega * Omega);
+  const double first = T * (2 + slope) / Omega,
+               second = T * (2 + 4 * slope + kOffsetCurvature * offset) / (Omega * Omega);
   ThrustPolynomial out{.b = first - second * Omega, .c = second / 2};
   out.b = cleaned(out.b, T / Omega);
   out.a = cleaned(T - out.b * Omega - out.c * Omega * Omega, T);

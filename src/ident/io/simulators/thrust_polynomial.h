@@ -1,4 +1,5 @@
-// Thrust as a polynomial of rotor speed, as several simulators have it, against kT and the effect thrust_curve.
+// Thrust as a polynomial of rotor speed, as several simulators have it, against kT and the effect
+// thrust_curve.
 //
 //   T = a + b Omega + c Omega^2, equal to the thrust curve in value, slope and curvature at hover
 #pragma once

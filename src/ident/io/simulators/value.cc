@@ -42,7 +42,8 @@ std::string Values::text(const std::string& name, const std::string& separator) 
 
 std::pair<double, double> Values::interval(const std::string& name) const {
   const std::size_t i = index(name);
-  const double half = i < deviations.size() ? kNormal95 * deviations[i] : 0.0, value = values_[i].numbers.front();
+  const double half = i < deviations.size() ? kNormal95 * deviations[i] : 0.0,
+               value = values_[i].numbers.front();
   return {value - half, value + half};
 }
 

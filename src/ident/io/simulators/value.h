@@ -1,4 +1,5 @@
-// One entry that a simulator's file takes from a vehicle: its name there, its numbers, and what they come from.
+// One entry that a simulator's file takes from a vehicle: its name there, its numbers, and what they come
+// from.
 #pragma once
 
 #include <functional>
@@ -10,11 +11,12 @@
 namespace ident {
 
 struct Value {
-  std::string name;             ///< that of the format, as `Fields` has it
+  std::string name;  ///< that of the format, as `Fields` has it
   std::vector<double> numbers;
   std::string unit;
-  std::string of;               ///< constants of the vehicle that make it: "kQ/kT"
-  std::string word = {};        ///< instead of numbers
+  std::string of;                     ///< constants of the vehicle that make it: "kQ/kT"
+  std::string word = {};              ///< instead of numbers
+  std::optional<double> absent = {};  ///< what the simulator takes where a file has no such entry
 };
 
 /// The entries of one file with their uncertainty, for its author.

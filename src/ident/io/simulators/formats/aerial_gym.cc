@@ -1,4 +1,5 @@
-// aerial_gym: the control allocation and motor model of a robot's configuration, with 95 % intervals as its ranges.
+// aerial_gym: the control allocation and motor model of a robot's configuration, with 95 % intervals as its
+// ranges.
 #include <Eigen/Geometry>
 
 #include "ident/io/simulators/entries.h"
@@ -18,22 +19,29 @@ std::vector<Value> values(const Vehicle& v, const Fields*) {
   const MotorLags lags = motor_lags(v);
   return {{"num_motors", {static_cast<double>(v.rotors.size())}, "-", "rotors"},
           {"motor_directions", turns, "-", "yaw moment on the body, 1 counter-clockwise"},
-          {"allocation_matrix", matrix, "-, m", "rows: force, then moment about the centre of gravity; forward, left, up"},
+          {"allocation_matrix", matrix, "-, m",
+           "rows: force, then moment about the centre of gravity; forward, left, up"},
           {"motor_thrust_constant", {v.value("kT")}, "N/(rad/s)^2", "kT"},
           {"motor_time_constant_increasing", {lags.up}, "s", "2 zeta_m/omega_m + dead_time"},
           {"motor_time_constant_decreasing", {lags.down}, "s", "the same while slowing down"},
           {"max_thrust", {full_thrust(v)}, "N", "kT (Omega_0 + km)^2"},
-          {"min_thrust", {v.value("kT") * value_or_zero(v, "Omega_0") * value_or_zero(v, "Omega_0")}, "N", "kT Omega_0^2"},
+          {"min_thrust",
+           {v.value("kT") * value_or_zero(v, "Omega_0") * value_or_zero(v, "Omega_0")},
+           "N",
+           "kT Omega_0^2"},
           {"thrust_to_torque_ratio", {torque_per_thrust(v)}, "m", "kQ/kT"},
           {"mass", {v.value("m")}, "kg", "m, for the URDF"},
           {"inertia", {v.value("Jxx"), v.value("Jyy"), v.value("Jzz")}, "kg m^2", "for the URDF"}};
 }
 
 std::string page(const Vehicle& v, const Values& values) {
-  std::string out = fmt::format("# aerial_gym configuration of {}, written by ident: parts of a robot's Cfg class.\n"
-                                "class control_allocator_config:\n", values.source);
-  std::string model = "\n    class motor_model_config:\n        use_rps = True  # constants over (rad/s)^2\n"
-                      "        use_discrete_approximation = False\n";
+  std::string out = fmt::format(
+      "# aerial_gym configuration of {}, written by ident: parts of a robot's Cfg class.\n"
+      "class control_allocator_config:\n",
+      values.source);
+  std::string model =
+      "\n    class motor_model_config:\n        use_rps = True  # constants over (rad/s)^2\n"
+      "        use_discrete_approximation = False\n";
   std::string urdf;
   for (const Value& value : values.all()) {
     const std::string note = values.note(value.name);

@@ -11,8 +11,8 @@
 namespace ident {
 namespace {
 
-constexpr double kGravity = 9.80665;  // GRAVITY_MSS of ArduPilot
-constexpr double kYawScale = 0.05;    // SIM_Motor.cpp
+constexpr double kGravity = 9.80665;      // GRAVITY_MSS of ArduPilot
+constexpr double kYawScale = 0.05;        // SIM_Motor.cpp
 constexpr double kReferenceSpeed = 10.0;  // m/s of a new file, at which the drag agrees
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -35,7 +35,7 @@ double idle_share(double c, double share) { return (std::sqrt(share) - c) / (1 -
 
 /// The assumed full speed, a part of it without command; so rounded that both make the full speed again.
 void set_idle(Vehicle& v, double idle) {
-  const double Omega_0 = std::round(kAssumedFullSpeed * idle * 1e9) / 1e9;
+  const double Omega_0 = std::round(kAssumedFullSpeed * idle * 1e10) / 1e10;
   v.parameters.erase("Omega_0");
   state_unless_zero(v, "Omega_0", Omega_0);
   v.parameters["km"] = {as_stated(kAssumedFullSpeed - Omega_0), {}};
@@ -49,7 +49,9 @@ void read_rotors(const Fields& f, Vehicle& v, double hover) {
     if (count != 4) f.fail("num_motors", "without motorN_position only a quadrotor X is read");
     v.rotors = layout_rotors("x", size, 0.0);
     std::swap(v.rotors[1], v.rotors[2]);  // ArduPilot: front right, back left, front left, back right
-    assume(v, f, "no motorN_position: an X with arms of diagonal_size, as ArduPilot computes, in its order of motors");
+    assume(
+        v, f,
+        "no motorN_position: an X with arms of diagonal_size, as ArduPilot computes, in its order of motors");
     return;
   }
   double torque = 0.0;
@@ -74,12 +76,14 @@ void read_body(const Fields& f, Vehicle& v) {
     J = {m * 0.25 * half * half, m * 0.25 * half * half, m * 0.5 * half * half};
     assume(v, f, "no moment_inertia: that of half the mass on a ring, as ArduPilot computes");
   }
-  for (int i = 0; i < 3; ++i) v.parameters[&"Jxx\0Jyy\0Jzz"[4 * i]] = {J[i], {}};
+  v.parameters["Jxx"] = {J.x(), {}}, v.parameters["Jyy"] = {J.y(), {}}, v.parameters["Jzz"] = {J.z(), {}};
   const double speed = f.number("refSpd", 15.08), angle = f.number("refAngle", 45.0);
   if (speed > 0 && angle > 0 && angle < 90)
     state_unless_zero(v, "parasitic_drag.C", m * kGravity * std::tan(angle * kDegree) / (speed * speed));
   if (f.number("mdrag_coef", 0.2) != 0.0)
-    assume(v, f, "mdrag_coef: the momentum drag of the rotors is taken into parasitic_drag, which agrees at refSpd");
+    assume(
+        v, f,
+        "mdrag_coef: the momentum drag of the rotors is taken into parasitic_drag, which agrees at refSpd");
 }
 
 Vehicle vehicle(const Fields& f) {
@@ -99,9 +103,13 @@ Vehicle vehicle(const Fields& f) {
   const double from = f.number("spin_min", 0.15), to = f.number("spin_max", 0.95);
   if (!(range > 0) || !(to > from)) f.fail("pwmMax", "leaves no range of the command");
   v.command = CommandRange{as_stated(low + from * range), as_stated(low + to * range)};
-  assume(v, f, fmt::format("SITL knows no rotor speed: {} rad/s at full command are assumed; propExpo becomes an offset of the "
-                           "speed that agrees at hover and at full command", kAssumedFullSpeed));
-  assume(v, f, "yaw torque of SITL goes with thrust times command: it agrees at hover; motors have no lag there");
+  assume(v, f,
+         fmt::format("SITL knows no rotor speed: {} rad/s at full command are assumed; propExpo becomes an "
+                     "offset of the "
+                     "speed that agrees at hover and at full command",
+                     kAssumedFullSpeed));
+  assume(v, f,
+         "yaw torque of SITL goes with thrust times command: it agrees at hover; motors have no lag there");
   return v;
 }
 
@@ -112,7 +120,8 @@ void stand_in(const Vehicle& whole, Vehicle& v) {
   set_by_full_thrust(v, thrust, thrust * torque_per_thrust(v));
   set_idle(v, idle);
   v.parameters.erase("parasitic_drag.C");
-  state_unless_zero(v, "parasitic_drag.C", as_stated(whole_linear_drag(whole, kReferenceSpeed) / kReferenceSpeed));
+  state_unless_zero(v, "parasitic_drag.C",
+                    as_stated(whole_linear_drag(whole, kReferenceSpeed) / kReferenceSpeed));
   if (!v.command) v.command = CommandRange{1000.0, 2000.0};
   v.g = kGravity;
 }
@@ -131,7 +140,9 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
       {"hoverThrOut", {share}, "-", "m g over the thrust at full command"},
       {"propExpo", {(share - c) / (c * c - c)}, "-", "thrust over command, exact at hover"},
       {"refSpd", {speed}, "m/s", "speed of the drag below"},
-      {"refAngle", {std::atan(value_or_zero(v, "parasitic_drag.C") * speed * speed / (m * kGravity)) / kDegree}, "deg",
+      {"refAngle",
+       {std::atan(value_or_zero(v, "parasitic_drag.C") * speed * speed / (m * kGravity)) / kDegree},
+       "deg",
        "drag of airframe and rotors at refSpd"},
       {"num_motors", {n}, "-", "rotors"}};
   if (own && !own->has(key(0, "position"))) return out;
@@ -139,7 +150,8 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
     const Rotor& r = v.rotors[k];
     out.push_back({key(k, "position"), {r.r_B.x(), r.r_B.y(), r.r_B.z()}, "m", "hub, forward, right, down"});
     out.push_back({key(k, "vector"), {r.a_B.x(), r.a_B.y(), r.a_B.z()}, "-", "thrust axis"});
-    out.push_back({key(k, "yaw"), {r.s * torque_per_thrust(v) / (kYawScale * size * c)}, "-", "kQ/kT, exact at hover"});
+    out.push_back(
+        {key(k, "yaw"), {r.s * torque_per_thrust(v) / (kYawScale * size * c)}, "-", "kQ/kT, exact at hover"});
   }
   if (own) return out;
   out.push_back({"pwmMin", {v.command->min_us}, "us", "command"});
@@ -148,25 +160,31 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
 }
 
 std::string page(const Vehicle&, const Values& values) {
-  std::string out = fmt::format("# ArduPilot SITL frame of {}, written by ident: sim_vehicle.py --model \"+:THIS FILE\"\n{{\n",
-                                values.source);
+  std::string out = fmt::format(
+      "# ArduPilot SITL frame of {}, written by ident: sim_vehicle.py --model \"+:THIS FILE\"\n{{\n",
+      values.source);
   for (const Value& value : values.all()) {
     const std::string number = values.text(value.name, ", ");
     out += fmt::format("  # {}\n  \"{}\": {},\n", values.note(value.name), value.name,
                        value.numbers.size() > 1 ? "[" + number + "]" : number);
   }
   return out +
-         "  # commands from 0 to 1 over the whole range, no slew limit\n  \"spin_min\": 0, \"spin_max\": 1, \"slew_max\": 0,\n"
-         "  # V, A, Ohm, m, degC: a battery that does not sag\n  \"refVoltage\": 12.6, \"maxVoltage\": 12.6, \"refCurrent\": "
-         "10, \"refBatRes\": 0,\n  \"battCapacityAh\": 0, \"refAlt\": 0, \"refTempC\": 15, \"refRotRate\": 120,\n"
+         "  # commands from 0 to 1 over the whole range, no slew limit\n  \"spin_min\": 0, \"spin_max\": 1, "
+         "\"slew_max\": 0,\n"
+         "  # V, A, Ohm, m, degC: a battery that does not sag\n  \"refVoltage\": 12.6, \"maxVoltage\": 12.6, "
+         "\"refCurrent\": "
+         "10, \"refBatRes\": 0,\n  \"battCapacityAh\": 0, \"refAlt\": 0, \"refTempC\": 15, \"refRotRate\": "
+         "120,\n"
          "  # the drag of the rotors is in refAngle\n  \"mdrag_coef\": 0\n}\n";
 }
 
 std::vector<std::string> remarks(const Vehicle& whole, const Vehicle&) {
   std::vector<std::string> out = {
-      "SITL's yaw torque goes with thrust times command and its thrust with a polynomial of the command: both agree at hover"};
+      "SITL's yaw torque goes with thrust times command and its thrust with a polynomial of the command: "
+      "both agree at hover"};
   if (whole_linear_drag(whole, kReferenceSpeed) > 0)
-    out.push_back(fmt::format("drag of rotors and airframe becomes a quadratic one that agrees at {} m/s", kReferenceSpeed));
+    out.push_back(fmt::format("drag of rotors and airframe becomes a quadratic one that agrees at {} m/s",
+                              kReferenceSpeed));
   return out;
 }
 
@@ -180,6 +198,7 @@ SimulatorFormat ardupilot_format() {
                     .motor = Capacity::Motor::instant,
                     .idle_speed = true,
                     .constants = {"parasitic_drag.C"},
+                    .replaced = {"rotor_drag.kd", "Kdx", "Kdy", "Kdz"},
                     .needs = {"km"}},
           .recognises = recognises,
           .read = read,

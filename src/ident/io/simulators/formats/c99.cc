@@ -121,22 +121,28 @@ std::string comment(std::string text) {
 
 std::string page(const Vehicle& v, const Values& values) {
   const std::size_t n = v.rotors.size();
-  std::string out = fmt::format("/* Flight model of {}, written by ident. C99, no dependency but math.h. */\n#ifndef IDENT_MODEL_H\n#define "
-                                "IDENT_MODEL_H\n#include <math.h>\n#define MODEL_ROTORS {}\n\ntypedef struct {{\n", comment(values.source), n);
+  std::string out = fmt::format(
+      "/* Flight model of {}, written by ident. C99, no dependency but math.h. */\n#ifndef "
+      "IDENT_MODEL_H\n#define "
+      "IDENT_MODEL_H\n#include <math.h>\n#define MODEL_ROTORS {}\n\ntypedef struct {{\n",
+      comment(values.source), n);
   std::string set;
   for (const Value& value : values.all()) {
-    const std::string size = !is_of_rotors(value) ? "" : value.numbers.size() == n ? "[MODEL_ROTORS]" : "[MODEL_ROTORS][3]";
+    const std::string size = !is_of_rotors(value)        ? ""
+                             : value.numbers.size() == n ? "[MODEL_ROTORS]"
+                                                         : "[MODEL_ROTORS][3]";
     out += fmt::format("  double {}{}; /* {} */\n", value.name, size, comment(values.note(value.name)));
     std::string text = values.text(value.name, ", ");
     if (value.numbers.size() == 3 * n && is_of_rotors(value)) {
       text.clear();
-      for (std::size_t i = 0; i < 3 * n; ++i) text += (i % 3 ? ", " : i ? "}, {" : "{") + value_text(value.numbers[i]);
+      for (std::size_t i = 0; i < 3 * n; ++i)
+        text += (i % 3 ? ", " : i ? "}, {" : "{") + value_text(value.numbers[i]);
       text += "}";
     }
     set += fmt::format("    .{} = {},\n", value.name, is_of_rotors(value) ? "{" + text + "}" : text);
   }
-  return out + "} model_constants;\n\nstatic const model_constants model_identified = {\n" + set + "};\n" + kUsage + kHelpers +
-         kDerivative + "#endif\n";
+  return out + "} model_constants;\n\nstatic const model_constants model_identified = {\n" + set + "};\n" +
+         kUsage + kHelpers + kDerivative + "#endif\n";
 }
 
 }  // namespace

@@ -66,15 +66,18 @@ def derivative(p, q, w, v, x, Omega, Omega_dot, delta, wind=(0, 0, 0)):
 )";
 
 std::string page(const Vehicle& v, const Values& values) {
-  std::string out = fmt::format("# Flight model of {}, written by ident.\nimport casadi as ca\n\nidentified = {{\n", values.source);
+  std::string out = fmt::format(
+      "# Flight model of {}, written by ident.\nimport casadi as ca\n\nidentified = {{\n", values.source);
   for (const Value& value : values.all()) {
     std::string text = values.text(value.name, ", ");
     if (is_of_rotors(value) && value.numbers.size() == 3 * v.rotors.size()) {
       text.clear();
-      for (std::size_t i = 0; i < value.numbers.size(); ++i) text += (i % 3 ? ", " : i ? "], [" : "[") + value_text(value.numbers[i]);
+      for (std::size_t i = 0; i < value.numbers.size(); ++i)
+        text += (i % 3 ? ", " : i ? "], [" : "[") + value_text(value.numbers[i]);
       text += "]";
     }
-    out += fmt::format("    \"{}\": {},  # {}\n", value.name, is_of_rotors(value) ? "[" + text + "]" : text, values.note(value.name));
+    out += fmt::format("    \"{}\": {},  # {}\n", value.name, is_of_rotors(value) ? "[" + text + "]" : text,
+                       values.note(value.name));
   }
   return out + "}\n" + kModel;
 }

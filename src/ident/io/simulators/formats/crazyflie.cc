@@ -18,8 +18,11 @@ std::vector<Value> values(const Vehicle& v, const Fields*) {
 }
 
 std::string page(const Vehicle& v, const Values& values) {
-  std::string out = fmt::format("// Crazyflie platform constants of {}, written by ident.\n// Inertia for a controller's gains: {} {} {} "
-                                "kg m^2.\n#pragma once\n\n", values.source, v.value("Jxx"), v.value("Jyy"), v.value("Jzz"));
+  std::string out = fmt::format(
+      "// Crazyflie platform constants of {}, written by ident.\n// Inertia for a controller's gains: {} {} "
+      "{} "
+      "kg m^2.\n#pragma once\n\n",
+      values.source, v.value("Jxx"), v.value("Jyy"), v.value("Jzz"));
   for (const Value& value : values.all()) {
     std::string number = values.text(value.name);
     if (number.find_first_of(".e") == std::string::npos) number += ".0";
@@ -29,7 +32,9 @@ std::string page(const Vehicle& v, const Values& values) {
 }
 
 std::vector<std::string> remarks(const Vehicle&, const Vehicle&) {
-  return {"VMOTOR2THRUST0..3 go by the motor's voltage, which no constant of the vehicle does: they are left as they are"};
+  return {
+      "VMOTOR2THRUST0..3 go by the motor's voltage, which no constant of the vehicle does: they are left as "
+      "they are"};
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Flightmare: quadrotor_dynamics of its YAML file. The inertia is not in it: m l^2/12 (4.5, 4.5, 7) in the code.
+// Flightmare: quadrotor_dynamics of its YAML file. The inertia is not in it: m l^2/12 (4.5, 4.5, 7) in the
+// code.
 #include "ident/io/simulators/entries.h"
 #include "ident/io/simulators/simulator_format.h"
 #include "ident/io/simulators/thrust_polynomial.h"
@@ -25,7 +26,8 @@ std::string page(const Vehicle&, const Values& values) {
   std::string out = fmt::format("# Flightmare, {}, written by ident.\nquadrotor_dynamics:\n", values.source);
   for (const Value& value : values.all()) {
     const std::string text = values.text(value.name, ", ");
-    out += fmt::format("  {}: {}  # {}\n", value.name, value.numbers.size() > 1 ? "[" + text + "]" : text, values.note(value.name));
+    out += fmt::format("  {}: {}  # {}\n", value.name, value.numbers.size() > 1 ? "[" + text + "]" : text,
+                       values.note(value.name));
   }
   return out + "  omega_max: [6.0, 6.0, 6.0]  # rad/s; of Flightmare's own controller\n";
 }
@@ -33,8 +35,11 @@ std::string page(const Vehicle&, const Values& values) {
 std::vector<std::string> remarks(const Vehicle& whole, const Vehicle& v) {
   const Eigen::Vector3d J = mass_properties(whole).J.diagonal();
   const double unit = v.value("m") * arm(v) * arm(v) / 12;
-  return {fmt::format("Flightmare computes the inertia from mass and arm, [{:.3g}, {:.3g}, {:.3g}] kg m^2, where the vehicle has "
-                      "[{:.3g}, {:.3g}, {:.3g}]: change updateDynamics in its code", 4.5 * unit, 4.5 * unit, 7 * unit, J.x(), J.y(), J.z())};
+  return {
+      fmt::format("Flightmare computes the inertia from mass and arm, [{:.3g}, {:.3g}, {:.3g}] kg m^2, where "
+                  "the vehicle has "
+                  "[{:.3g}, {:.3g}, {:.3g}]: change updateDynamics in its code",
+                  4.5 * unit, 4.5 * unit, 7 * unit, J.x(), J.y(), J.z())};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // l2f (rl-tools, RAPTOR): the dynamics of a vehicle as JSON.
 //
-// Forward, left, up. Thrust is a polynomial of the motor's setpoint, 0 to 1; torque is a constant times thrust.
+// Forward, left, up. Thrust is a polynomial of the motor's setpoint, 0 to 1; torque is a constant times
+// thrust.
 #include <Eigen/LU>
 
 #include "ident/io/simulators/entries.h"
@@ -10,7 +11,9 @@
 namespace ident {
 namespace {
 
-void append(std::vector<double>& list, const Eigen::Vector3d& v) { list.insert(list.end(), {v.x(), v.y(), v.z()}); }
+void append(std::vector<double>& list, const Eigen::Vector3d& v) {
+  list.insert(list.end(), {v.x(), v.y(), v.z()});
+}
 
 std::vector<double> rows(const Eigen::Matrix3d& J) {
   std::vector<double> out;
@@ -31,19 +34,20 @@ std::vector<Value> values(const Vehicle& v, const Fields*) {
   }
   const Eigen::Matrix3d J = flipped(mass_properties(v).J);
   const MotorLags lags = motor_lags(v);
-  return {{"mass", {v.value("m")}, "kg", "m"},
-          {"gravity", {0, 0, -v.g}, "m/s^2", "gravity"},
-          {"J", rows(J), "kg m^2", "J"},
-          {"J_inv", rows(J.inverse()), "1/(kg m^2)", "J"},
-          {"rotor_positions", places, "m", "hubs"},
-          {"rotor_thrust_directions", axes, "-", "thrust axes"},
-          {"rotor_torque_directions", turns, "-", "spins"},
-          {"rotor_thrust_coefficients", thrust, "N over powers of the setpoint", "kT, Omega_0, km, thrust_curve"},
-          {"rotor_torque_constants", std::vector<double>(n, torque_per_thrust(v)), "m", "kQ/kT"},
-          {"rotor_time_constants_rising", std::vector<double>(n, lags.up), "s", "2 zeta_m/omega_m + dead_time"},
-          {"rotor_time_constants_falling", std::vector<double>(n, lags.down), "s", "the same while slowing down"},
-          {"hovering_throttle_relative", {(hover_speed(v) - idle) / km}, "-", "setpoint at hover"},
-          {"action_limit", {0, 1}, "-", "setpoints"}};
+  return {
+      {"mass", {v.value("m")}, "kg", "m"},
+      {"gravity", {0, 0, -v.g}, "m/s^2", "gravity"},
+      {"J", rows(J), "kg m^2", "J"},
+      {"J_inv", rows(J.inverse()), "1/(kg m^2)", "J"},
+      {"rotor_positions", places, "m", "hubs"},
+      {"rotor_thrust_directions", axes, "-", "thrust axes"},
+      {"rotor_torque_directions", turns, "-", "spins"},
+      {"rotor_thrust_coefficients", thrust, "N over powers of the setpoint", "kT, Omega_0, km, thrust_curve"},
+      {"rotor_torque_constants", std::vector<double>(n, torque_per_thrust(v)), "m", "kQ/kT"},
+      {"rotor_time_constants_rising", std::vector<double>(n, lags.up), "s", "2 zeta_m/omega_m + dead_time"},
+      {"rotor_time_constants_falling", std::vector<double>(n, lags.down), "s", "the same while slowing down"},
+      {"hovering_throttle_relative", {(hover_speed(v) - idle) / km}, "-", "setpoint at hover"},
+      {"action_limit", {0, 1}, "-", "setpoints"}};
 }
 
 std::string page(const Vehicle& v, const Values& values) {
@@ -51,7 +55,8 @@ std::string page(const Vehicle& v, const Values& values) {
   for (const Value& value : values.all()) {
     const std::size_t size = value.numbers.size();
     std::string text = values.text(value.name, ", ");
-    if (value.name == "action_limit") text = "{\"min\": 0, \"max\": 1}";
+    if (value.name == "action_limit")
+      text = "{\"min\": 0, \"max\": 1}";
     else if (size == 3 * v.rotors.size() || size == 9) {
       text.clear();
       for (std::size_t i = 0; i < size; ++i)
@@ -60,7 +65,8 @@ std::string page(const Vehicle& v, const Values& values) {
     } else if (size > 1)
       text = "[" + text + "]";
     out += fmt::format("    \"{}\": {},\n", value.name, text);
-    notes += fmt::format("{}\n      \"{}\": \"{}\"", notes.empty() ? "" : ",", value.name, values.note(value.name));
+    notes += fmt::format("{}\n      \"{}\": \"{}\"", notes.empty() ? "" : ",", value.name,
+                         values.note(value.name));
   }
   return out + "    \"notes\": {" + notes + "\n    }\n  }\n}\n";  // JSON has no comments
 }

@@ -34,21 +34,38 @@ std::vector<Value> values(const Vehicle& v, const Fields*) {
 }
 
 std::string page(const Vehicle& v, const Values& values) {
-  std::string out = fmt::format("# Pegasus thrust curve and drag of {}, written by ident.\n# The USD model holds the masses: mass {} kg, "
-                                "inertia {} {} {} kg m^2, products {} {} {} (forward, left, up).\n",
-                                values.source, v.value("m"), v.value("Jxx"), v.value("Jyy"), v.value("Jzz"),
-                                -value_or_zero(v, "Jxy"), -value_or_zero(v, "Jxz"), value_or_zero(v, "Jyz"));
+  std::string out = fmt::format(
+      "# Pegasus thrust curve and drag of {}, written by ident.\n# The USD model holds the masses: mass {} "
+      "kg, "
+      "inertia {} {} {} kg m^2, products {} {} {} (forward, left, up).\n",
+      values.source, v.value("m"), v.value("Jxx"), v.value("Jyy"), v.value("Jzz"), -value_or_zero(v, "Jxy"),
+      -value_or_zero(v, "Jxz"), value_or_zero(v, "Jyz"));
   for (std::size_t n = 0; n < v.rotors.size(); ++n)
-    out += fmt::format("# rotor{} at {} {} {} m\n", n, v.rotors[n].r_B.x(), -v.rotors[n].r_B.y(), -v.rotors[n].r_B.z());
-  out += "from pegasus.simulator.logic.dynamics import LinearDrag\nfrom pegasus.simulator.logic.thrusters import "
-         "QuadraticThrustCurve\n\nthrust_curve = QuadraticThrustCurve({\n";
+    out += fmt::format("# rotor{} at {} {} {} m\n", n, v.rotors[n].r_B.x(), -v.rotors[n].r_B.y(),
+                       -v.rotors[n].r_B.z());
+  out +=
+      "from pegasus.simulator.logic.dynamics import LinearDrag\nfrom pegasus.simulator.logic.thrusters "
+      "import "
+      "QuadraticThrustCurve\n\nthrust_curve = QuadraticThrustCurve({\n";
   for (const Value& value : values.all()) {
     if (value.name == "drag") continue;
     const std::string text = values.text(value.name, ", ");
-    out += fmt::format("    \"{}\": {},  # {}\n", value.name, value.numbers.size() > 1 ? "[" + text + "]" : text,
-                       values.note(value.name));
+    out += fmt::format("    \"{}\": {},  # {}\n", value.name,
+                       value.numbers.size() > 1 ? "[" + text + "]" : text, values.note(value.name));
   }
-  return out + fmt::format("}})\ndrag = LinearDrag([{}])  # {}\n", values.text("drag", ", "), values.note("drag"));
+  return out +
+         fmt::format("}})\ndrag = LinearDrag([{}])  # {}\n", values.text("drag", ", "), values.note("drag"));
+}
+
+std::vector<std::string> remarks(const Vehicle& whole, const Vehicle& v) {
+  std::vector<std::string> out = {
+      "mass, inertia and hubs belong into the USD model: they are in the comments"};
+  if (whole_linear_drag(whole, kDragSpeed) > 0)
+    out.push_back(fmt::format(
+        "all drag becomes a linear one of {:.4g} N/(m/s): that of the rotors as at hover, that of the "
+        "airframe as at {} m/s",
+        value_or_zero(v, "Kdx"), kDragSpeed));
+  return out;
 }
 
 }  // namespace
@@ -61,10 +78,12 @@ SimulatorFormat pegasus_format() {
                     .motor = Capacity::Motor::instant,
                     .idle_speed = true,
                     .constants = {"Kdx", "Kdy", "Kdz"},
+                    .replaced = {"rotor_drag.kd", "parasitic_drag.C"},
                     .needs = {"km"}},
           .stand_in = stand_in,
           .values = values,
-          .page = page};
+          .page = page,
+          .remarks = remarks};
 }
 
 }  // namespace ident

@@ -1,4 +1,5 @@
-// PX4's control allocation and thrust curve: CA_* and THR_MDL_FAC of an airframe, with the speeds of its Gazebo outputs.
+// PX4's control allocation and thrust curve: CA_* and THR_MDL_FAC of an airframe, with the speeds of its
+// Gazebo outputs.
 //
 // T = CT u^2, yaw moment KM T, KM positive for a counter-clockwise rotor; forward, right, down.
 #include "ident/io/simulators/entries.h"
@@ -56,10 +57,12 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
   for (std::size_t n = 0; n < v.rotors.size(); ++n) {
     const Rotor& r = v.rotors[n];
     const double ratio = rotor_ratio(v, n);
-    const Eigen::Vector3d place[] = {r.r_B, r.a_B};
-    for (int i = 0; i < 3; ++i) out.push_back({key(n, &"PX\0PY\0PZ"[3 * i]), {place[0][i]}, "m", "hub"});
-    for (int i = 0; i < 3; ++i) out.push_back({key(n, &"AX\0AY\0AZ"[3 * i]), {place[1][i]}, "-", "thrust axis"});
-    out.push_back({key(n, "CT"), {ratio * full_thrust(v)}, "N", "kT (Omega_0 + km)^2"});
+    constexpr const char *kHub[] = {"PX", "PY", "PZ"}, *kAxis[] = {"AX", "AY", "AZ"};
+    for (int i = 0; i < 3; ++i) out.push_back({key(n, kHub[i]), {r.r_B[i]}, "m", "hub", {}, 0.0});
+    for (int i = 0; i < 3; ++i)
+      out.push_back({key(n, kAxis[i]), {r.a_B[i]}, "-", "thrust axis", {}, i < 2 ? 0.0 : -1.0});
+    if (!own || own->has(key(0, "CT")))  // only ratios count: a file without any has equal ones
+      out.push_back({key(n, "CT"), {ratio * full_thrust(v)}, "N", "kT (Omega_0 + km)^2"});
     out.push_back({key(n, "KM"), {r.s * torque_per_thrust(v)}, "m", "kQ/kT, counter-clockwise positive"});
   }
   if (own && !own->has("SIM_GZ_EC_MAX1")) return out;
@@ -71,14 +74,20 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
 }
 
 std::string page(const Vehicle&, const Values& values) {
-  std::string out = fmt::format("# PX4 control allocation of {}, written by ident: lines of an airframe.\n", values.source);
+  std::string out =
+      fmt::format("# PX4 control allocation of {}, written by ident: lines of an airframe.\n", values.source);
   for (const Value& value : values.all())
-    out += fmt::format("param set-default {} {}  # {}\n", value.name, values.text(value.name), values.note(value.name));
-  return out + "param set-default THR_MDL_FAC 1  # thrust goes with the square of the command where Omega_0 is small\n";
+    out += fmt::format("param set-default {} {}  # {}\n", value.name, values.text(value.name),
+                       values.note(value.name));
+  return out +
+         "param set-default THR_MDL_FAC 1  # thrust goes with the square of the command where Omega_0 is "
+         "small\n";
 }
 
 std::vector<std::string> remarks(const Vehicle&, const Vehicle&) {
-  return {"an airframe file holds geometry and ratios: mass, inertia, lags and drag belong into the simulator's model"};
+  return {
+      "an airframe file holds geometry and ratios: mass, inertia, lags and drag belong into the simulator's "
+      "model"};
 }
 
 }  // namespace

@@ -9,10 +9,11 @@ namespace ident {
 namespace {
 
 constexpr double kGravity = 9.80665;  // CONSTANTS_ONE_G of PX4
-constexpr double kDragSpeed = 5.0;  // m/s at which the drag of the airframe is replaced by a linear one
+constexpr double kDragSpeed = 5.0;    // m/s at which the drag of the airframe is replaced by a linear one
 
 bool recognises(std::string_view text) {
-  return sets_parameter(text, "SIH_MASS") || sets_parameter(text, "SIH_T_MAX") || sets_parameter(text, "SIH_IXX");
+  return sets_parameter(text, "SIH_MASS") || sets_parameter(text, "SIH_T_MAX") ||
+         sets_parameter(text, "SIH_IXX");
 }
 
 const std::vector<FixedRotor> kLayout = {{1, 1, 1}, {-1, -1, 1}, {1, -1, -1}, {-1, 1, -1}};
@@ -33,10 +34,13 @@ Vehicle vehicle(const Fields& f) {
   set_by_full_thrust(v, f.positive("SIH_T_MAX"), std::abs(torque));
   set_first_order(v, f.number("SIH_T_TAU", 0.05), 0.0);
   for (const char* name : {"Kdx", "Kdy", "Kdz"}) state_unless_zero(v, name, f.number("SIH_KDV", 1.0));
-  assume(v, f, fmt::format("SIH knows no rotor speed: {} rad/s at full command are assumed, only kT km^2 and kQ km^2 count",
-                           kAssumedFullSpeed));
+  assume(v, f,
+         fmt::format(
+             "SIH knows no rotor speed: {} rad/s at full command are assumed, only kT km^2 and kQ km^2 count",
+             kAssumedFullSpeed));
   assume(v, f, "SIH's thrust is linear in the command: a command here is its square root");
-  if (f.number("SIH_KDW", 0.0) != 0.0) assume(v, f, "SIH_KDW, a damping of the rates, has no counterpart and is left out");
+  if (f.number("SIH_KDW", 0.0) != 0.0)
+    assume(v, f, "SIH_KDW, a damping of the rates, has no counterpart and is left out");
   return v;
 }
 
@@ -64,26 +68,37 @@ std::vector<Value> values(const Vehicle& v, const Fields*) {
           {"SIH_Q_MAX", {first.s * thrust * torque_per_thrust(v)}, "N m", "kQ (Omega_0 + km)^2"},
           {"SIH_L_ROLL", {std::abs(first.r_B.y())}, "m", "hubs"},
           {"SIH_L_PITCH", {std::abs(first.r_B.x())}, "m", "hubs"},
-          {"SIH_KDV", {value_or_zero(v, "Kdx")}, "N/(m/s)", "Kdx..z, rotor_drag at hover, parasitic_drag at 5 m/s"},
+          {"SIH_KDV",
+           {value_or_zero(v, "Kdx")},
+           "N/(m/s)",
+           "Kdx..z, rotor_drag at hover, parasitic_drag at 5 m/s"},
           {"SIH_T_TAU", {motor_lags(v).up}, "s", "2 zeta_m/omega_m + dead_time"}};
 }
 
 std::string page(const Vehicle&, const Values& values) {
-  std::string out = fmt::format("# PX4 SIH parameters of {}, written by ident.\n# MAV ID  COMPONENT ID  PARAM NAME  VALUE  "
-                                "TYPE (6: integer, 9: float)\n# The thrust of SIH is linear in the command: set THR_MDL_FAC to "
-                                "0 in the simulation.\n", values.source);
+  std::string out = fmt::format(
+      "# PX4 SIH parameters of {}, written by ident.\n# MAV ID  COMPONENT ID  PARAM NAME  VALUE  "
+      "TYPE (6: integer, 9: float)\n# The thrust of SIH is linear in the command: set THR_MDL_FAC to "
+      "0 in the simulation.\n",
+      values.source);
   for (const Value& value : values.all())
-    out += fmt::format("1\t1\t{}\t{}\t9\t# {}\n", value.name, values.text(value.name), values.note(value.name));
-  return out + "1\t1\tSIH_KDW\t0\t9\t# N m/(rad/s); rates have no damping of their own\n1\t1\tSIH_VEHICLE_TYPE\t0\t6\t# "
-               "quadrotor\n1\t1\tTHR_MDL_FAC\t0\t9\n";
+    out +=
+        fmt::format("1\t1\t{}\t{}\t9\t# {}\n", value.name, values.text(value.name), values.note(value.name));
+  return out +
+         "1\t1\tSIH_KDW\t0\t9\t# N m/(rad/s); rates have no damping of their "
+         "own\n1\t1\tSIH_VEHICLE_TYPE\t0\t6\t# "
+         "quadrotor\n1\t1\tTHR_MDL_FAC\t0\t9\n";
 }
 
 std::vector<std::string> remarks(const Vehicle& whole, const Vehicle& v) {
-  std::vector<std::string> out = {"thrust is linear in SIH's command, and the lag acts on it: with THR_MDL_FAC 0 in the "
-                                  "simulation, steady flight agrees with the vehicle"};
+  std::vector<std::string> out = {
+      "thrust is linear in SIH's command, and the lag acts on it: with THR_MDL_FAC 0 in the "
+      "simulation, steady flight agrees with the vehicle"};
   if (whole_linear_drag(whole, kDragSpeed) > 0)
-    out.push_back(fmt::format("all drag becomes the linear SIH_KDV {:.4g} N/(m/s): that of the rotors as at hover, that of the "
-                              "airframe as at {} m/s", value_or_zero(v, "Kdx"), kDragSpeed));
+    out.push_back(fmt::format(
+        "all drag becomes the linear SIH_KDV {:.4g} N/(m/s): that of the rotors as at hover, that of the "
+        "airframe as at {} m/s",
+        value_or_zero(v, "Kdx"), kDragSpeed));
   return out;
 }
 
@@ -97,6 +112,7 @@ SimulatorFormat px4_sih_format() {
                     .heights = false,
                     .layout = kLayout,
                     .constants = {"Kdx", "Kdy", "Kdz"},
+                    .replaced = {"rotor_drag.kd", "parasitic_drag.C"},
                     .needs = {"km", "omega_m"}},
           .recognises = recognises,
           .read = parameter_lines,

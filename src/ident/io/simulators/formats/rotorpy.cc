@@ -1,8 +1,8 @@
 // RotorPy: the dictionary `quad_params`, as Python, YAML or JSON [rotorpy/vehicles/multirotor.py].
 //
-// Body frame forward, left, up. T = k_eta w^2, yaw k_m w^2, H = -w diag(k_d, k_d, k_z) v and lift k_h v^2 at each
-// hub, drag -|v| diag(c_D) v at the centre, flapping -k_flap w (v x z), which lowers the nose in
-// forward flight where ours raises it; speeds of first order.
+// Body frame forward, left, up. T = k_eta w^2, yaw k_m w^2, H = -w diag(k_d, k_d, k_z) v and lift k_h v^2 at
+// each hub, drag -|v| diag(c_D) v at the centre, flapping -k_flap w (v x z), which lowers the nose in forward
+// flight where ours raises it; speeds of first order.
 #include "ident/io/simulators/entries.h"
 #include "ident/io/simulators/readers/python_literal.h"
 #include "ident/io/simulators/readers/yaml_fields.h"
@@ -70,8 +70,11 @@ Vehicle vehicle(const Fields& f) {
   const double x = f.number("c_Dx", 0.0), y = f.number("c_Dy", 0.0), z = f.number("c_Dz", 0.0);
   state_unless_zero(v, "parasitic_drag.C", (x + y + z) / 3.0);
   if (x != y || x != z)
-    assume(v, f, fmt::format("c_Dx, c_Dy and c_Dz ({:.4g}, {:.4g}, {:.4g}) become their mean: the drag of the airframe is "
-                             "the same from every side here", x, y, z));
+    assume(v, f,
+           fmt::format(
+               "c_Dx, c_Dy and c_Dz ({:.4g}, {:.4g}, {:.4g}) become their mean: the drag of the airframe is "
+               "the same from every side here",
+               x, y, z));
   return v;
 }
 
@@ -101,20 +104,25 @@ std::vector<Value> values(const Vehicle& v, const Fields*) {
 }
 
 std::string page(const Vehicle& v, const Values& values) {
-  std::string out = fmt::format("# RotorPy parameters of {}, written by ident.\nimport numpy as np\n\nquad_params = {{\n",
-                                values.source);
+  std::string out =
+      fmt::format("# RotorPy parameters of {}, written by ident.\nimport numpy as np\n\nquad_params = {{\n",
+                  values.source);
   std::string hubs;
   for (std::size_t n = 0; n < v.rotors.size(); ++n)
-    hubs += fmt::format("        'r{}': np.array([{}]),  # {}\n", n + 1, values.text(hub(n), ", "), values.note(hub(n)));
+    hubs += fmt::format("        'r{}': np.array([{}]),  # {}\n", n + 1, values.text(hub(n), ", "),
+                        values.note(hub(n)));
   for (const Value& value : values.all()) {
     if (value.name == hub(0)) out += "    'rotor_pos': {\n" + hubs + "    },\n";
     if (value.name.starts_with("rotor_pos")) continue;
     const std::string number = values.text(value.name, ", ");
-    out += fmt::format("    '{}': {},  # {}\n", value.name, value.numbers.size() > 1 ? "np.array([" + number + "])" : number,
+    out += fmt::format("    '{}': {},  # {}\n", value.name,
+                       value.numbers.size() > 1 ? "np.array([" + number + "])" : number,
                        values.note(value.name));
   }
-  return out + "    'rI': np.array([0, 0, 0]),  # m; the IMU\n    'motor_noise_std': 0.0,  # rad/s\n"
-               "    'k_w': 1, 'k_v': 10, 'kp_att': 544, 'kd_att': 46.64,  # gains of RotorPy's own controllers\n}\n";
+  return out +
+         "    'rI': np.array([0, 0, 0]),  # m; the IMU\n    'motor_noise_std': 0.0,  # rad/s\n"
+         "    'k_w': 1, 'k_v': 10, 'kp_att': 544, 'kd_att': 46.64,  # gains of RotorPy's own "
+         "controllers\n}\n";
 }
 
 std::vector<std::string> remarks(const Vehicle& v, const Vehicle&) {
@@ -130,8 +138,8 @@ SimulatorFormat rotorpy_format() {
           .holds = {.centre = Capacity::Centre::by_positions,
                     .tilted_axes = false,
                     .idle_speed = true,
-                    .constants = {"rotor_drag.kd", "axial_inflow.kz", "translational_lift.kh", "blade_flapping.kf",
-                                  "parasitic_drag.C"},
+                    .constants = {"rotor_drag.kd", "axial_inflow.kz", "translational_lift.kh",
+                                  "blade_flapping.kf", "parasitic_drag.C"},
                     .needs = {"km", "omega_m"}},
           .recognises = recognises,
           .read = read,

@@ -1,7 +1,9 @@
 // URDF of gym-pybullet-drones: `properties`, base_link and the links of four propellers.
 //
-// kf and km are per squared rpm; forward, left, up; motors follow at once; spins -,+,-,+ of the yaw moment (z up).
-//   drag = coeff times the sum of the rotors' speeds times velocity; near the ground T (1 + gnd_eff_coeff (R/4h)^2)
+// kf and km are per squared rpm; forward, left, up; motors follow at once; spins -,+,-,+ of the yaw moment (z
+// up).
+//   drag = coeff times the sum of the rotors' speeds times velocity; near the ground T (1 + gnd_eff_coeff
+//   (R/4h)^2)
 #include <numbers>
 
 #include "ident/io/simulators/entries.h"
@@ -52,24 +54,30 @@ Vehicle vehicle(const Fields& f) {
   body.J.diagonal() << f.positive("ixx"), f.positive("iyy"), f.positive("izz");
   set_mass_properties(v, body);
   for (const char* product : {"ixy", "ixz", "iyz"})
-    if (f.number(product, 0.0) != 0.0) assume(v, f, "products of inertia are ignored, as gym-pybullet-drones does");
+    if (f.number(product, 0.0) != 0.0)
+      assume(v, f, "products of inertia are ignored, as gym-pybullet-drones does");
   v.g = 9.8;  // BaseAviary.G
   v.parameters["kT"] = {f.positive("kf") / (kPerRpm * kPerRpm), {}};
   v.parameters["kQ"] = {f.positive("km") / (kPerRpm * kPerRpm), {}};
-  v.parameters["km"] = {as_stated(std::sqrt(f.positive("thrust2weight") * body.m * v.g / (4 * v.value("kT")))), {}};
+  v.parameters["km"] = {
+      as_stated(std::sqrt(f.positive("thrust2weight") * body.m * v.g / (4 * v.value("kT")))), {}};
   state_unless_zero(v, "rotor_drag.kd", f.number("drag_coeff_xy", 0.0));
   state_unless_zero(v, "axial_inflow.kz", f.number("drag_coeff_z", 0.0));
   v.propeller_radius = f.positive("prop_radius");
-  state_unless_zero(v, "ground_effect.radius_sq", f.number("gnd_eff_coeff", 0.0) * *v.propeller_radius * *v.propeller_radius);
-  assume(v, f, "rotors in the order and with the spins of cf2x; the command is taken as linear from 0 to the speed of "
-               "thrust2weight");
+  state_unless_zero(v, "ground_effect.radius_sq",
+                    f.number("gnd_eff_coeff", 0.0) * *v.propeller_radius * *v.propeller_radius);
+  assume(
+      v, f,
+      "rotors in the order and with the spins of cf2x; the command is taken as linear from 0 to the speed of "
+      "thrust2weight");
   return v;
 }
 
 /// The file needs a radius of the propeller; without one half the arm serves, and ground effect goes by it.
 void stand_in(const Vehicle&, Vehicle& v) {
   v.g = 9.8;
-  if (!v.propeller_radius) v.propeller_radius = as_stated(std::hypot(v.rotors[0].r_B.x(), v.rotors[0].r_B.y()) / 2);
+  if (!v.propeller_radius)
+    v.propeller_radius = as_stated(std::hypot(v.rotors[0].r_B.x(), v.rotors[0].r_B.y()) / 2);
 }
 
 std::vector<Value> values(const Vehicle& v, const Fields* own) {
@@ -103,45 +111,61 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
 
 std::string page(const Vehicle& v, const Values& values) {
   std::string notes, properties, links;
-  for (const char* name : {"arm", "kf", "km", "thrust2weight", "gnd_eff_coeff", "prop_radius", "drag_coeff_xy", "drag_coeff_z",
-                           "mass", "ixx", "iyy", "izz"})
+  for (const char* name : {"arm", "kf", "km", "thrust2weight", "gnd_eff_coeff", "prop_radius",
+                           "drag_coeff_xy", "drag_coeff_z", "mass", "ixx", "iyy", "izz"})
     notes += fmt::format("       {}: {}\n", name, values.note(name));
   // The reader of gym-pybullet-drones goes by position: properties first, then base_link, its inertial first.
   properties = fmt::format(
-      "  <properties arm=\"{}\" kf=\"{}\" km=\"{}\" thrust2weight=\"{}\" max_speed_kmh=\"30\" gnd_eff_coeff=\"{}\" "
-      "prop_radius=\"{}\" drag_coeff_xy=\"{}\" drag_coeff_z=\"{}\" dw_coeff_1=\"0\" dw_coeff_2=\"1\" dw_coeff_3=\"1\"/>\n",
-      values.text("arm"), values.text("kf"), values.text("km"), values.text("thrust2weight"), values.text("gnd_eff_coeff"),
-      values.text("prop_radius"), values.text("drag_coeff_xy"), values.text("drag_coeff_z"));
+      "  <properties arm=\"{}\" kf=\"{}\" km=\"{}\" thrust2weight=\"{}\" max_speed_kmh=\"30\" "
+      "gnd_eff_coeff=\"{}\" "
+      "prop_radius=\"{}\" drag_coeff_xy=\"{}\" drag_coeff_z=\"{}\" dw_coeff_1=\"0\" dw_coeff_2=\"1\" "
+      "dw_coeff_3=\"1\"/>\n",
+      values.text("arm"), values.text("kf"), values.text("km"), values.text("thrust2weight"),
+      values.text("gnd_eff_coeff"), values.text("prop_radius"), values.text("drag_coeff_xy"),
+      values.text("drag_coeff_z"));
   const auto massless = [](const std::string& name, const std::string& xyz) {
     return fmt::format(
-        "  <link name=\"{0}\">\n    <inertial>\n      <origin rpy=\"0 0 0\" xyz=\"{1}\"/>\n      <mass value=\"0\"/>\n      "
-        "<inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/>\n    </inertial>\n  </link>\n  <joint "
-        "name=\"{0}_joint\" type=\"fixed\">\n    <parent link=\"base_link\"/>\n    <child link=\"{0}\"/>\n  </joint>\n",
+        "  <link name=\"{0}\">\n    <inertial>\n      <origin rpy=\"0 0 0\" xyz=\"{1}\"/>\n      <mass "
+        "value=\"0\"/>\n      "
+        "<inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/>\n    </inertial>\n  "
+        "</link>\n  <joint "
+        "name=\"{0}_joint\" type=\"fixed\">\n    <parent link=\"base_link\"/>\n    <child link=\"{0}\"/>\n  "
+        "</joint>\n",
         name, xyz);
   };
   for (std::size_t n = 0; n < 4; ++n) links += massless(fmt::format("prop{}_link", n), values.text(hub(n)));
   links += massless("center_of_mass_link", "0 0 0");
   const double arm = values.number("arm");
   return fmt::format(
-      "<?xml version=\"1.0\" ?>\n<robot name=\"{}\">\n  <!-- Written by ident for gym-pybullet-drones.\n{}  -->\n{}"
-      "  <link name=\"base_link\">\n    <inertial>\n      <origin rpy=\"0 0 0\" xyz=\"0 0 0\"/>\n      <mass value=\"{}\"/>\n"
-      "      <inertia ixx=\"{}\" ixy=\"0.0\" ixz=\"0.0\" iyy=\"{}\" iyz=\"0.0\" izz=\"{}\"/>\n    </inertial>\n"
-      "    <collision>\n      <origin rpy=\"0 0 0\" xyz=\"0 0 0\"/>\n      <geometry>\n        <cylinder radius=\"{}\" "
+      "<?xml version=\"1.0\" ?>\n<robot name=\"{}\">\n  <!-- Written by ident for gym-pybullet-drones.\n{}  "
+      "-->\n{}"
+      "  <link name=\"base_link\">\n    <inertial>\n      <origin rpy=\"0 0 0\" xyz=\"0 0 0\"/>\n      <mass "
+      "value=\"{}\"/>\n"
+      "      <inertia ixx=\"{}\" ixy=\"0.0\" ixz=\"0.0\" iyy=\"{}\" iyz=\"0.0\" izz=\"{}\"/>\n    "
+      "</inertial>\n"
+      "    <collision>\n      <origin rpy=\"0 0 0\" xyz=\"0 0 0\"/>\n      <geometry>\n        <cylinder "
+      "radius=\"{}\" "
       "length=\"{}\"/>\n      </geometry>\n    </collision>\n  </link>\n{}</robot>\n",
-      v.name.empty() ? "vehicle" : xml_text(v.name), notes, properties, values.text("mass"), values.text("ixx"),
-      values.text("iyy"), values.text("izz"), value_text(arm), value_text(0.4 * arm), links);
+      v.name.empty() ? "vehicle" : xml_text(v.name), notes, properties, values.text("mass"),
+      values.text("ixx"), values.text("iyy"), values.text("izz"), value_text(arm), value_text(0.4 * arm),
+      links);
 }
 
 std::vector<std::string> remarks(const Vehicle& whole, const Vehicle& v) {
   std::vector<std::string> out;
   if (v.has("rotor_drag.kd") || v.has("axial_inflow.kz"))
-    out.push_back("drag acts at the centre of gravity there, not at the hubs: the damping of the rates is missing");
-  if (whole.g != 9.8) out.push_back(fmt::format("gym-pybullet-drones computes with 9.8 m/s^2, the vehicle says {:.6g}", whole.g));
+    out.push_back(
+        "drag acts at the centre of gravity there, not at the hubs: the damping of the rates is missing");
+  if (whole.g != 9.8)
+    out.push_back(
+        fmt::format("gym-pybullet-drones computes with 9.8 m/s^2, the vehicle says {:.6g}", whole.g));
   if (v.has("ground_effect.radius_sq")) {
     out.push_back("ground effect agrees to first order in (radius/4 height)^2");
   }
   if (!whole.propeller_radius)
-    out.push_back(fmt::format("the vehicle file states no propeller_radius: {:.3g} m, half the arm, is written", *v.propeller_radius));
+    out.push_back(
+        fmt::format("the vehicle file states no propeller_radius: {:.3g} m, half the arm, is written",
+                    *v.propeller_radius));
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace ident {
 /// All that a program of the full model holds: everything but sensors, wind and the battery's voltage.
 Capacity full_model_capacity();
 
-/// Scalars under names that are identifiers ("rotor_drag_kd"), then "rotor_r", "rotor_a", "rotor_s", "rotor_ratio".
+/// Scalars under names that are identifiers ("rotor_drag_kd"), then "rotor_r", "rotor_a", "rotor_s",
+/// "rotor_ratio".
 std::vector<Value> full_model_values(const Vehicle& vehicle);
 
 /// Whether an entry is one number a rotor or more.

@@ -51,10 +51,12 @@ void add_body(const XmlDocument& document, pugi::xml_node body, Fields& fields) 
     document.fail(inertial, "has neither diaginertia nor fullinertia");
 }
 
-pugi::xml_node site_of(const XmlDocument& document, pugi::xml_node body, pugi::xml_node actuator, pugi::xml_attribute name) {
+pugi::xml_node site_of(const XmlDocument& document, pugi::xml_node body, pugi::xml_node actuator,
+                       pugi::xml_attribute name) {
   for (const pugi::xml_node site : elements_below(body, "site"))
     if (std::string_view(site.attribute("name").value()) == name.value()) {
-      if (site.parent() != body) document.fail(site, "lies on a body within the vehicle: sites of the free body are read");
+      if (site.parent() != body)
+        document.fail(site, "lies on a body within the vehicle: sites of the free body are read");
       return site;
     }
   document.fail(actuator, fmt::format("acts at site '{}', which is not on the free body", name.value()));
@@ -83,7 +85,8 @@ Fields mjcf_fields(const std::string& text, const std::string& file) {
     for (const char* name : {"gear", "ctrlrange", "dynprm"})
       document.add_numbers(fields, key + name, attribute(root, actuator, name));
     if (!fields.has(key + "gear")) document.fail(actuator, "has no gear");
-    if (!fields.has(key + "ctrlrange")) document.fail(actuator, "has no ctrlrange: the thrust at full command is not known");
+    if (!fields.has(key + "ctrlrange"))
+      document.fail(actuator, "has no ctrlrange: the thrust at full command is not known");
   }
   if (rotor == 0) document.fail(root, "has no actuator at a site: no rotors");
   if (rotor > 8) document.fail(root, "has more than 8 actuators at sites");
@@ -120,7 +123,9 @@ Eigen::Vector3d mjcf_axis(const Fields& fields, const std::string& prefix) {
 std::string xml_text(const std::string& name) {
   std::string out;
   for (const char c : name)
-    if (std::string_view("<>&\"'-").find(c) == std::string_view::npos && static_cast<unsigned char>(c) >= 0x20) out += c;
+    if (std::string_view("<>&\"'-").find(c) == std::string_view::npos &&
+        static_cast<unsigned char>(c) >= 0x20)
+      out += c;
   return out;
 }
 

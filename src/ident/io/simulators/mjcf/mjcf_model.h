@@ -8,9 +8,9 @@
 
 namespace ident {
 
-/// Fields "mass", "inertial.pos", "diaginertia" or "fullinertia", "inertial.quat", "gravity", and for each actuator
-/// at a site "rotorN.pos", "rotorN.zaxis" or "rotorN.quat", "rotorN.gear", "rotorN.ctrlrange", "rotorN.dynprm".
-/// Attributes of default classes count. Throws InputError.
+/// Fields "mass", "inertial.pos", "diaginertia" or "fullinertia", "inertial.quat", "gravity", and for each
+/// actuator at a site "rotorN.pos", "rotorN.zaxis" or "rotorN.quat", "rotorN.gear", "rotorN.ctrlrange",
+/// "rotorN.dynprm". Attributes of default classes count. Throws InputError.
 Fields mjcf_fields(const std::string& text, const std::string& file);
 
 /// Inertia about the centre of gravity in the file's frame.

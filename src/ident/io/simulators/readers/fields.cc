@@ -17,7 +17,8 @@ constexpr std::string_view kBetween = " \t\r\n,[](){}";
 }  // namespace
 
 long Fields::line_at(std::size_t offset) const {
-  return 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(std::min(offset, text_.size())), '\n');
+  return 1 +
+         std::count(text_.begin(), text_.begin() + static_cast<long>(std::min(offset, text_.size())), '\n');
 }
 
 void Fields::add_numbers(const std::string& name, std::size_t begin, std::size_t size) {

@@ -1,4 +1,5 @@
-// What a simulator's file states: named numbers with their places in the text, so that they can be replaced there.
+// What a simulator's file states: named numbers with their places in the text, so that they can be replaced
+// there.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,12 +20,12 @@ struct FieldNumber {
 /// One or several numbers, or a word, under a name of the format.
 struct Field {
   std::vector<FieldNumber> numbers;
-  std::string text;            ///< as it stands there
+  std::string text;  ///< as it stands there
   std::size_t begin = 0, size = 0;
   long line = 0;
-  std::string elsewhere;       ///< another file that it stands in: nothing to patch here
-  bool computed = false;       ///< an expression: only the whole can be replaced
-  std::string open, close;     ///< what stands around several numbers that replace an expression
+  std::string elsewhere;    ///< another file that it stands in: nothing to patch here
+  bool computed = false;    ///< an expression: only the whole can be replaced
+  std::string open, close;  ///< what stands around several numbers that replace an expression
 };
 
 /// Where a field that the file lacks would stand.

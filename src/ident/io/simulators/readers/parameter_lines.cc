@@ -36,7 +36,9 @@ Fields parameter_lines(const std::string& text, const std::string& file) {
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::vector<Token> words = tokens(std::string_view(text).substr(start, end - start), start);
-    const auto word = [&](std::size_t i) { return std::string_view(text).substr(words[i].begin, words[i].size); };
+    const auto word = [&](std::size_t i) {
+      return std::string_view(text).substr(words[i].begin, words[i].size);
+    };
     std::size_t i = 0;  // numbers of the vehicle and component, or `param set`, stand before the name
     while (i < words.size() && i < 3 && !is_name(word(i))) ++i;
     if (i + 1 < words.size() && is_name(word(i)))
@@ -52,7 +54,8 @@ bool sets_parameter(std::string_view text, std::string_view name) {
   for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
     const std::size_t line = text.rfind('\n', at) + 1;
     const std::size_t end = at + name.size();
-    const bool whole = end < text.size() && std::string_view(" \t,=").find(text[end]) != std::string_view::npos;
+    const bool whole =
+        end < text.size() && std::string_view(" \t,=").find(text[end]) != std::string_view::npos;
     if (whole && text.substr(line, at - line).find_first_of("#/<\"'{") == std::string_view::npos) return true;
   }
   return false;

@@ -8,8 +8,8 @@
 
 namespace ident {
 
-/// `1 1 SIH_MASS 1.0 9`, `param set-default SIH_MASS 1.0`, `SIH_MASS 1.0`, `SIH_MASS,1.0`; `#` starts a comment.
-/// Of a parameter that is set twice the last counts. Throws InputError where a value is no number.
+/// `1 1 SIH_MASS 1.0 9`, `param set-default SIH_MASS 1.0`, `SIH_MASS 1.0`, `SIH_MASS,1.0`; `#` starts a
+/// comment. Of a parameter that is set twice the last counts. Throws InputError where a value is no number.
 Fields parameter_lines(const std::string& text, const std::string& file);
 
 /// Whether a line sets this parameter.

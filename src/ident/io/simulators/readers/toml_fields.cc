@@ -40,8 +40,8 @@ class Flattening {
  private:
   std::size_t offset(const toml::source_position& at) const {
     std::size_t i = starts_.at(std::min<std::size_t>(at.line, starts_.size()) - 1);
-    for (toml::source_index column = 1; column < at.column && i < fields_.text().size(); ++column)
-      do ++i;
+    for (toml::source_index column = 1; column < at.column && i < fields_.text().size(); ++column) do
+        ++i;
       while (i < fields_.text().size() && (static_cast<unsigned char>(fields_.text()[i]) & 0xC0U) == 0x80U);
     return i;
   }
@@ -64,7 +64,8 @@ class Flattening {
   void entry(const toml::node& node, const std::string& name) {
     Field field{.line = static_cast<long>(node.source().begin.line)};
     if (!numbers(node, name, field) || field.numbers.empty()) {
-      if (const auto word = node.value<std::string>()) field.text = *word, field.numbers.clear(), fields_.add(name, field);
+      if (const auto word = node.value<std::string>())
+        field.text = *word, field.numbers.clear(), fields_.add(name, field);
       return;
     }
     field.begin = field.numbers.front().begin;

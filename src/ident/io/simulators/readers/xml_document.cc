@@ -12,7 +12,8 @@ namespace {
 constexpr std::string_view kBlank = " \t\r\n";
 
 long line_of(const std::string& text, std::ptrdiff_t offset) {
-  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
+  const auto end =
+      text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
   return 1 + std::count(text.begin(), end, '\n');
 }
 

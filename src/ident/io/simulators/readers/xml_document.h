@@ -26,9 +26,10 @@ class XmlDocument {
   void add_numbers(Fields& fields, const std::string& name, pugi::xml_node element) const;
   void add_numbers(Fields& fields, const std::string& name, pugi::xml_attribute attribute) const;
   void add_word(Fields& fields, const std::string& name, pugi::xml_node element) const;
-  /// A new element `tag` would stand behind `sibling`, on a line of its own; `absent` is what holds without it.
-  void can_insert_behind(Fields& fields, const std::string& name, pugi::xml_node sibling, const std::string& tag,
-                         double absent) const;
+  /// A new element `tag` would stand behind `sibling`, on a line of its own; `absent` is what holds without
+  /// it.
+  void can_insert_behind(Fields& fields, const std::string& name, pugi::xml_node sibling,
+                         const std::string& tag, double absent) const;
 
  private:
   struct Span {

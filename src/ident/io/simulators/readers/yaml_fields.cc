@@ -44,13 +44,15 @@ class Flattening {
     Field field{.text = leaves.front().Scalar(), .line = node.Mark().line + 1};
     for (const YAML::Node& leaf : leaves) {
       const std::optional<double> value = parse_number(leaf.Scalar());
-      const std::size_t begin = static_cast<std::size_t>(std::max(leaf.Mark().pos, 0)), size = leaf.Scalar().size();
+      const std::size_t begin = static_cast<std::size_t>(std::max(leaf.Mark().pos, 0)),
+                        size = leaf.Scalar().size();
       if (leaf.Tag() == "!" || !value) {  // quoted, or a word
         if (leaves.size() == 1) fields_.add(name, field);
         return;
       }
       if (!std::isfinite(*value))
-        throw InputError(fields_.file(), leaf.Mark().line + 1, name, fmt::format("'{}' is not finite", leaf.Scalar()));
+        throw InputError(fields_.file(), leaf.Mark().line + 1, name,
+                         fmt::format("'{}' is not finite", leaf.Scalar()));
       if (fields_.text().compare(begin, size, leaf.Scalar()) != 0)
         throw InputError(fields_.file(), leaf.Mark().line + 1, name, "cannot be placed in the file");
       field.numbers.push_back({*value, begin, size});
@@ -81,7 +83,8 @@ Fields yaml_fields(const std::string& text, const std::string& file, const std::
   return fields;
 }
 
-bool yaml_has_keys(std::string_view text, std::initializer_list<const char*> keys, const std::string& inside) {
+bool yaml_has_keys(std::string_view text, std::initializer_list<const char*> keys,
+                   const std::string& inside) {
   for (const char* key : keys)  // cheap, and files of other formats never reach the parser
     if (text.find(key) == std::string_view::npos) return false;
   try {
@@ -93,7 +96,8 @@ bool yaml_has_keys(std::string_view text, std::initializer_list<const char*> key
     return true;
   } catch (const YAML::Exception&) {
     return text.find_first_not_of(" \t\r\n") != std::string_view::npos &&
-           text[text.find_first_not_of(" \t\r\n")] == '{';  // broken JSON with these keys: its reader says where
+           text[text.find_first_not_of(" \t\r\n")] ==
+               '{';  // broken JSON with these keys: its reader says where
   }
 }
 

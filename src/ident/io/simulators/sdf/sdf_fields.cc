@@ -21,11 +21,10 @@ struct MotorEntry {
   const char* name;
   double absent;
 };
-constexpr MotorEntry kMotor[] = {{"timeConstantUp", 1.0 / 80},        {"timeConstantDown", 1.0 / 40},
-                                 {"maxRotVelocity", 838.0},           {"motorConstant", 8.54858e-06},
-                                 {"momentConstant", 0.016},           {"rotorDragCoefficient", 1e-4},
-                                 {"rollingMomentCoefficient", 1e-6},  {"rotorVelocitySlowdownSim", 10.0},
-                                 {"maxRelativeAirspeed", 25.0}};
+constexpr MotorEntry kMotor[] = {
+    {"timeConstantUp", 1.0 / 80},       {"timeConstantDown", 1.0 / 40},     {"maxRotVelocity", 838.0},
+    {"motorConstant", 8.54858e-06},     {"momentConstant", 0.016},          {"rotorDragCoefficient", 1e-4},
+    {"rollingMomentCoefficient", 1e-6}, {"rotorVelocitySlowdownSim", 10.0}, {"maxRelativeAirspeed", 25.0}};
 
 struct Motor {
   int number = 0;
@@ -37,14 +36,16 @@ class Model {
  public:
   Model(const std::string& text, const std::string& file, std::string_view plugin)
       : document_(text, file), fields_(text, file) {
-    if (std::string_view(document_.root().name()) != "sdf") document_.fail(document_.root(), "is no SDF: the root has to be sdf");
+    if (std::string_view(document_.root().name()) != "sdf")
+      document_.fail(document_.root(), "is no SDF: the root has to be sdf");
     model_ = document_.root().child("model");
     if (!model_) document_.fail(document_.root(), "has no model");
     find_motors(plugin);
   }
 
   Fields fields() {
-    for (std::size_t n = 0; n < motors_.size(); ++n) add_motor(motors_[n].plugin, fmt::format("rotor{}.", n + 1));
+    for (std::size_t n = 0; n < motors_.size(); ++n)
+      add_motor(motors_[n].plugin, fmt::format("rotor{}.", n + 1));
     add_links();
     return fields_;
   }
@@ -63,8 +64,10 @@ class Model {
  private:
   void find_motors(std::string_view name) {
     for (const pugi::xml_node plugin : elements_below(model_, "plugin")) {
-      if (std::string_view(plugin.attribute("filename").value()).find(name) == std::string_view::npos) continue;
-      const pugi::xml_node number = plugin.child("motorNumber") ? plugin.child("motorNumber") : plugin.child("actuator_number");
+      if (std::string_view(plugin.attribute("filename").value()).find(name) == std::string_view::npos)
+        continue;
+      const pugi::xml_node number =
+          plugin.child("motorNumber") ? plugin.child("motorNumber") : plugin.child("actuator_number");
       if (!plugin.child("linkName")) document_.fail(plugin, "names no link (linkName)");
       motors_.push_back({number ? number.text().as_int() : static_cast<int>(motors_.size()),
                          plugin.child("linkName").text().as_string(), plugin});
@@ -72,8 +75,10 @@ class Model {
     std::ranges::stable_sort(motors_, {}, &Motor::number);
     if (motors_.size() > 8) document_.fail(motors_[8].plugin, "is the ninth motor: eight are read");
     if (!motors_.empty()) return;
-    for (const pugi::xml_node link : model_.children("link"))  // a model without plugins: links by their names
-      if (const std::string own = link.attribute("name").value(); own.starts_with("rotor_") && motors_.size() < 8)
+    for (const pugi::xml_node link :
+         model_.children("link"))  // a model without plugins: links by their names
+      if (const std::string own = link.attribute("name").value();
+          own.starts_with("rotor_") && motors_.size() < 8)
         motors_.push_back({static_cast<int>(motors_.size()), own, {}});
   }
 
@@ -89,7 +94,8 @@ class Model {
 
   std::string key_of(const std::string& name, int& others) {
     for (std::size_t n = 0; n < motors_.size(); ++n)
-      if (motors_[n].link == name || name.ends_with("/" + motors_[n].link)) return fmt::format("rotor{}.", n + 1);
+      if (motors_[n].link == name || name.ends_with("/" + motors_[n].link))
+        return fmt::format("rotor{}.", n + 1);
     if (name == base_) return "base.";
     return fmt::format("link{}.", ++others);
   }
@@ -111,12 +117,14 @@ class Model {
       const pugi::xml_node pose = link.child("pose"), inertial = link.child("inertial");
       const std::string_view frame = pose.attribute("relative_to").value();
       if (!frame.empty() && frame != base_ && frame != "__model__")
-        document_.fail(pose, fmt::format("is relative to '{}': poses in the frame of the model are read", frame));
+        document_.fail(pose,
+                       fmt::format("is relative to '{}': poses in the frame of the model are read", frame));
       document_.add_numbers(fields_, key + "pose", pose.text().empty() ? pugi::xml_node() : pose);
       if (inertial.child("pose") && !inertial.child("pose").text().empty())
         document_.add_numbers(fields_, key + "inertial", inertial.child("pose"));
       document_.add_numbers(fields_, key + "mass", inertial.child("mass"));
-      for (const char* name : kMoments) document_.add_numbers(fields_, key + name, inertial.child("inertia").child(name));
+      for (const char* name : kMoments)
+        document_.add_numbers(fields_, key + name, inertial.child("inertia").child(name));
       if (key == "base." && inertial.child("mass") && !inertial.child("pose"))
         document_.can_insert_behind(fields_, "base.inertial", inertial.child("mass"), "pose", 0.0);
     }
@@ -147,8 +155,9 @@ Fields sdf_fields(const std::string& text, const std::string& file, std::string_
   if (model.has_links() || model.included().empty()) return fields;
   const std::string other = beside(file, model.included());
   if (other.empty())
-    throw InputError(file, 0, "include", fmt::format("'{}' is not beside the folder of this file: it holds the masses",
-                                                     model.included()));
+    throw InputError(
+        file, 0, "include",
+        fmt::format("'{}' is not beside the folder of this file: it holds the masses", model.included()));
   Model base(read_bytes(other, kLargestFile), other, plugin);
   if (!model.motors().empty()) base.take_motors(model.motors());
   const Fields links = base.links();

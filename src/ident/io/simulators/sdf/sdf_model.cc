@@ -20,8 +20,10 @@ struct Pose {
 Pose pose(const Fields& fields, const std::string& name) {
   if (!fields.has(name)) return {};
   const std::vector<double> p = fields.numbers(name, 6);
-  return {{p[0], p[1], p[2]}, (Eigen::AngleAxisd(p[5], Vector3d::UnitZ()) * Eigen::AngleAxisd(p[4], Vector3d::UnitY()) *
-                               Eigen::AngleAxisd(p[3], Vector3d::UnitX())).toRotationMatrix()};
+  return {{p[0], p[1], p[2]},
+          (Eigen::AngleAxisd(p[5], Vector3d::UnitZ()) * Eigen::AngleAxisd(p[4], Vector3d::UnitY()) *
+           Eigen::AngleAxisd(p[3], Vector3d::UnitX()))
+              .toRotationMatrix()};
 }
 
 std::string rotor(std::size_t n) { return fmt::format("rotor{}.", n + 1); }
@@ -47,8 +49,8 @@ MassProperties lump(const Fields& f, const std::string& key, const Vector3d* hub
   const auto moment = [&](const char* name) { return f.number(key + name, 0.0); };
   MassProperties out{.m = f.positive(key + "mass")};
   Matrix3d J;
-  J << moment("ixx"), moment("ixy"), moment("ixz"), moment("ixy"), moment("iyy"), moment("iyz"), moment("ixz"), moment("iyz"),
-      moment("izz");
+  J << moment("ixx"), moment("ixy"), moment("ixz"), moment("ixy"), moment("iyy"), moment("iyz"),
+      moment("ixz"), moment("iyz"), moment("izz");
   const Matrix3d R = link.R * inertial.R;
   out.J = R * J * R.transpose();
   out.c_B = link.r + link.R * inertial.r;
@@ -79,7 +81,8 @@ MassProperties sdf_body(const Fields& fields, bool with_base, const std::vector<
   if (with_base) lumps.push_back(lump(fields, "base.", nullptr));
   const std::size_t rotors = sdf_rotors(fields);
   for (std::size_t n = 0; n < rotors; ++n)
-    if (fields.has(rotor(n) + "mass")) lumps.push_back(lump(fields, rotor(n), n < hubs.size() ? &hubs[n] : nullptr));
+    if (fields.has(rotor(n) + "mass"))
+      lumps.push_back(lump(fields, rotor(n), n < hubs.size() ? &hubs[n] : nullptr));
   for (int n = 1; n < 1000; ++n) {
     const std::string key = fmt::format("link{}.", n);
     if (fields.has(key + "mass")) lumps.push_back(lump(fields, key, nullptr));
@@ -91,9 +94,11 @@ MassProperties sdf_body(const Fields& fields, bool with_base, const std::vector<
 MassProperties sdf_base(const Fields& fields, const MassProperties& whole, const MassProperties& rest) {
   MassProperties base{.m = whole.m - rest.m};
   if (!(base.m > 0))
-    fields.fail("base.mass", fmt::format("the other links weigh {:.4g} kg, the vehicle {:.4g} kg", rest.m, whole.m));
+    fields.fail("base.mass",
+                fmt::format("the other links weigh {:.4g} kg, the vehicle {:.4g} kg", rest.m, whole.m));
   base.c_B = (whole.m * whole.c_B - rest.m * rest.c_B) / base.m;
-  base.J = whole.J - rest.J - parallel_axis(rest.m, rest.c_B - whole.c_B) - parallel_axis(base.m, base.c_B - whole.c_B);
+  base.J = whole.J - rest.J - parallel_axis(rest.m, rest.c_B - whole.c_B) -
+           parallel_axis(base.m, base.c_B - whole.c_B);
   if (!(Eigen::SelfAdjointEigenSolver<Matrix3d>(base.J, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0))
     fields.fail("base.ixx", "the inertia of the other links leaves nothing for the base link");
   return base;

@@ -11,9 +11,10 @@
 namespace ident {
 
 /// Fields of the links: "base.mass", "base.ixx".., "base.inertial" (pose), "rotorN.pose", "rotorN.mass",
-/// "rotorN.izz".., "linkN..." for the rest; and of the plugins: "rotorN.motorConstant", "rotorN.turningDirection"...
-/// in the order of the motors' numbers. `plugin` is a part of the plugins' file names. Links of an included model
-/// that lies beside the file's folder count, but cannot be patched from here. Throws InputError.
+/// "rotorN.izz".., "linkN..." for the rest; and of the plugins: "rotorN.motorConstant",
+/// "rotorN.turningDirection"... in the order of the motors' numbers. `plugin` is a part of the plugins' file
+/// names. Links of an included model that lies beside the file's folder count, but cannot be patched from
+/// here. Throws InputError.
 Fields sdf_fields(const std::string& text, const std::string& file, std::string_view plugin);
 
 /// Number of rotors, by their links.
@@ -23,8 +24,8 @@ std::size_t sdf_rotors(const Fields& fields);
 Eigen::Vector3d sdf_hub(const Fields& fields, std::size_t rotor);
 Eigen::Vector3d sdf_axis(const Fields& fields, std::size_t rotor);
 
-/// Mass, centre and inertia about it of all links together, or of all but the base, in the frame of the base link.
-/// `hubs` replaces the places of the rotors.
+/// Mass, centre and inertia about it of all links together, or of all but the base, in the frame of the base
+/// link. `hubs` replaces the places of the rotors.
 MassProperties sdf_body(const Fields& fields, bool with_base, const std::vector<Eigen::Vector3d>& hubs = {});
 
 /// The base link that makes `whole` together with the `rest`. Throws InputError where no body could be so.
