@@ -3,8 +3,10 @@
 # `setup_packages LIST...` installs missing Debian packages, `setup_plots` fetches the interactive plots.
 
 build_packages=(build-essential cmake ninja-build libeigen3-dev libceres-dev libfmt-dev nlohmann-json3-dev
-                libyaml-cpp-dev libcli11-dev libfccp-dev libsqlite3-dev liblz4-dev libzstd-dev)
-test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib)
+                libyaml-cpp-dev libcli11-dev libfccp-dev libsqlite3-dev liblz4-dev libzstd-dev libpugixml-dev
+                libtomlplusplus-dev)
+test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib
+               libmujoco-dev libsdformat-dev liburdfdom-dev)
 
 setup_packages() {
   local package missing=() as_root=()

@@ -105,6 +105,8 @@ ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& option
   print(text);
   context.outputs.commit();
   if (!options.json) fmt::print(stderr, "{}", notes(context.notices));
+  if (!options.json && !context.print.empty())
+    for (const Warning& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning.message);
   return outcome.status;
 }
 

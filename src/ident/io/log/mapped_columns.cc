@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "ident/core/nearest_word.h"
-#include "ident/io/csv/parse_number.h"
+#include "ident/core/parse_number.h"
 #include "ident/io/log/log_signals.h"
 
 namespace ident {

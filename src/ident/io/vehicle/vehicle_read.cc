@@ -10,6 +10,8 @@
 #include "ident/core/nearest_word.h"
 #include "ident/core/parse_number.h"
 #include "ident/effects/all_parameters.h"
+#include "ident/io/file/read_bytes.h"
+#include "ident/io/simulators/simulators.h"
 #include "ident/io/vehicle/parameter_names.h"
 #include "ident/io/vehicle/vehicle_correlations.h"
 #include "ident/io/vehicle/vehicle_yaml.h"
@@ -201,7 +203,13 @@ void expect_computable(const YamlValue& file, const Vehicle& vehicle) {
 
 }  // namespace
 
-Vehicle read_vehicle(const std::string& path, VehicleUse use) { return vehicle_from(load_yaml(path), use); }
+Vehicle read_vehicle(const std::string& path, VehicleUse use) {
+  constexpr std::size_t kLargestFile = 16u << 20;
+  const std::string text = read_bytes(path, kLargestFile);
+  if (const SimulatorFormat* format = recognised_simulator(text))
+    return vehicle_of_simulator(*format, text, path);
+  return vehicle_from(parse_yaml(text, path), use);
+}
 
 Vehicle vehicle_from(const YamlValue& file, VehicleUse use) {
   file.expect_map(kVehicleKeys);
