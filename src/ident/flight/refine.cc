@@ -26,9 +26,11 @@
 #include "ident/flight/fit/hover_priors.h"
 #include "ident/flight/fit/input_sensitivity.h"
 #include "ident/flight/fit/physical_inertia.h"
+#include "ident/flight/ladder/ladder.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/record/channel_units.h"
 #include "ident/flight/trim/trim.h"
+#include "ident/views/chosen_rung.h"
 #include "ident/views/flight_residuals.h"
 #include "ident/views/profile_likelihood.h"
 #include "ident/views/thrust_by_command.h"
@@ -150,6 +152,8 @@ void validate(Result& result, const FlightRecord& record, const Theta& theta, Fl
   result.fit["held_out"] = validation.horizons;
   result.sections.push_back(std::move(validation.section));
   if (!validation.worse.empty()) doubt_where_worse(result, validation.worse);
+  const FullModel full{theta.p(view.u), theta.p(nearest_body(theta, fit))};
+  if (const auto ladder = climb_ladder(record, full)) settle_for_chosen(result, *ladder, *record.vehicle);
 }
 
 std::string verdict(const Result& result, double seconds) {

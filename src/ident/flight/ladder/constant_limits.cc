@@ -12,14 +12,15 @@ namespace {
 // Published inertias of one vehicle differ by a third (data/REAL_FLIGHT.md), thrust per squared command by
 // its battery and propellers by a factor of 2; beyond these factors the input is not what it is said to be.
 constexpr double kInertiaFactor = 2.0, kRotorFactor = 3.0;
-constexpr double kWeighed = 5.0;    // deviations of a mass
+constexpr double kWeighed = 5.0;     // deviations of a mass
 constexpr double kMassFactor = 1.5;  // of a mass without a deviation
 
 }  // namespace
 
 std::array<double, 2> limits_of(const FreeConstant& c) {
   if (c.index == param::m) {
-    const double part = c.prior_std ? std::min(kWeighed * *c.prior_std / c.prior_value, 0.5) : kMassFactor - 1;
+    const double part =
+        c.prior_std ? std::min(kWeighed * *c.prior_std / c.prior_value, 0.5) : kMassFactor - 1;
     return {std::log1p(-part), std::log1p(part)};
   }
   if (c.positive) {

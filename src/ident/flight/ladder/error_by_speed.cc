@@ -9,8 +9,8 @@
 namespace ident {
 namespace {
 
-constexpr double kCut = 3.0;      // deviations from which a window stands out
-constexpr double kLeast = 0.02;   // of the mean variance: no window is trusted beyond that
+constexpr double kCut = 3.0;     // deviations from which a window stands out
+constexpr double kLeast = 0.02;  // of the mean variance: no window is trusted beyond that
 constexpr int kRounds = 6;
 
 }  // namespace
@@ -31,7 +31,8 @@ Eigen::VectorXd weight_by_speed(const std::vector<Window>& windows, const Eigen:
       A += k, B += k * s, C += k * s * s, d += k * y, e += k * s * y;
     }
     const double det = A * C - B * B;
-    double a = det > 1e-9 * A * C ? (d * C - e * B) / det : d / A, b = det > 1e-9 * A * C ? (A * e - B * d) / det : 0;
+    double a = det > 1e-9 * A * C ? (d * C - e * B) / det : d / A,
+           b = det > 1e-9 * A * C ? (A * e - B * d) / det : 0;
     if (b < 0) b = 0, a = d / A;
     if (a < 0) a = 0, b = e / C;
     for (std::size_t w = 0; w < n; ++w)

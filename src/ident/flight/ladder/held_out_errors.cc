@@ -15,8 +15,8 @@ using Effects = EffectSet<double>;
 using Vehicles = Flight<double, Effects>;
 using Motors = std::array<MotorState<double>, kMaxRotors>;
 
-constexpr double kSpacing = 0.5;      // s between windows
-constexpr double kTumbling = 200.0;   // rad/s: no vehicle turns faster, and no prediction is worse than that
+constexpr double kSpacing = 0.5;     // s between windows
+constexpr double kTumbling = 200.0;  // rad/s: no vehicle turns faster, and no prediction is worse than that
 constexpr double kPi = 3.14159265358979;
 
 std::size_t at(Metric metric) { return static_cast<std::size_t>(metric); }
@@ -36,7 +36,7 @@ double size_of(const Vec3<double>& error, double most) {
 std::array<std::size_t, kLadderHorizons.size()> ends_of(const MeasuredArc& measured, std::size_t begin,
                                                         double early) {
   std::array<std::size_t, kLadderHorizons.size()> ends;
-  const std::vector<double>& t = measured.arc->t;
+  const std::vector<double>& t = measured.t;
   for (std::size_t h = 0; h < ends.size(); ++h) {
     const auto row = std::lower_bound(t.begin(), t.end(), t[begin] + kLadderHorizons[h] - early) - t.begin();
     ends[h] = static_cast<std::size_t>(row) < t.size() ? static_cast<std::size_t>(row) : begin;
@@ -75,7 +75,7 @@ struct Prediction {
 void predict_turning(WindowErrors& errors, const Prediction& by, const Vehicles& flight, std::size_t begin,
                      std::span<const std::size_t> ends) {
   const MeasuredArc& measured = by.motion.arcs[errors.arc];
-  const std::vector<double>& t = measured.arc->t;
+  const std::vector<double>& t = measured.t;
   const std::size_t rotors = by.motion.record->vehicle->rotors.size();
   BodyState<double> body = measured.body[begin];
   const std::size_t last = *std::ranges::max_element(ends);
@@ -95,7 +95,7 @@ void predict_turning(WindowErrors& errors, const Prediction& by, const Vehicles&
 void predict_all(WindowErrors& errors, const Prediction& by, Vehicles& flight, std::size_t begin,
                  std::span<const std::size_t> ends) {
   const MeasuredArc& measured = by.motion.arcs[errors.arc];
-  const std::vector<double>& t = measured.arc->t;
+  const std::vector<double>& t = measured.t;
   FlightState<double> state{};
   state.body = measured.body[begin], state.motors = by.along[errors.arc].motors[begin];
   BodyRate<double> rate = flight.rate(state, t[begin]);
@@ -109,10 +109,8 @@ void predict_all(WindowErrors& errors, const Prediction& by, Vehicles& flight, s
     }
     for (std::size_t k = 0; k < ends.size(); ++k) {
       if (ends[k] != i + 1) continue;
-      errors.of[at(Metric::open_velocity)][k] =
-          size_of(state.body.v_W - measured.body[i + 1].v_W, kTumbling);
-      errors.of[at(Metric::open_attitude)][k] =
-          angle_between(state.body.q_WB, measured.body[i + 1].q_WB);
+      errors.of[at(Metric::open_velocity)][k] = size_of(state.body.v_W - measured.body[i + 1].v_W, kTumbling);
+      errors.of[at(Metric::open_attitude)][k] = angle_between(state.body.q_WB, measured.body[i + 1].q_WB);
     }
   }
 }
@@ -136,14 +134,13 @@ std::vector<WindowErrors> held_out_errors(const MeasuredMotion& motion, std::spa
   in_parallel(windows.size(), [&](std::size_t w) {
     auto& [errors, begin] = windows[w];
     const MeasuredArc& measured = motion.arcs[errors.arc];
-    const auto ends = ends_of(measured, begin, 0.5 * motion.record->interval);
+    const auto ends = ends_of(measured, begin, 0.5 * typical_row(motion));
     const ModelAlong& model = by.along[errors.arc];
     for (std::size_t h = 0; h < ends.size() && motion.forces; ++h)
       if (ends[h] > begin)
-        errors.of[at(Metric::velocity)][h] =
-            size_of(measured.gained_W[ends[h]] - measured.gained_W[begin] -
-                        (model.gained_W[ends[h]] - model.gained_W[begin]),
-                    kTumbling);
+        errors.of[at(Metric::velocity)][h] = size_of(measured.gained_W[ends[h]] - measured.gained_W[begin] -
+                                                         (model.gained_W[ends[h]] - model.gained_W[begin]),
+                                                     kTumbling);
     Vehicles flight(*motion.record->vehicle, p, by.effects, *measured.arc->inputs);
     flight.step_to_order(2);
     if (motion.moments) predict_turning(errors, by, flight, begin, ends);
@@ -158,10 +155,10 @@ std::vector<WindowErrors> errors_of_persistence(const MeasuredMotion& motion) {
   std::vector<WindowErrors> out;
   for (auto& [errors, begin] : empty_windows(motion)) {
     const MeasuredArc& measured = motion.arcs[errors.arc];
-    const auto ends = ends_of(measured, begin, 0.5 * motion.record->interval);
+    const auto ends = ends_of(measured, begin, 0.5 * typical_row(motion));
     for (std::size_t h = 0; h < ends.size(); ++h) {
       if (ends[h] <= begin) continue;
-      const double T = measured.arc->t[ends[h]] - measured.arc->t[begin];
+      const double T = measured.t[ends[h]] - measured.t[begin];
       const BodyState<double>&from = measured.body[begin], &to = measured.body[ends[h]];
       Vec4<double> turn(1.0, T / 2 * from.w_B[0], T / 2 * from.w_B[1], T / 2 * from.w_B[2]);
       const double half = turn.tail<3>().norm();

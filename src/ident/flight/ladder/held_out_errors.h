@@ -1,4 +1,5 @@
-// Errors of prediction as a user feels them: m/s, rad/s and degrees after 0.1, 0.5 and 1 s of held-out flight.
+// Errors of prediction as a user feels them: m/s, rad/s and degrees after 0.1, 0.5 and 1 s of held-out
+// flight.
 #pragma once
 
 #include <array>

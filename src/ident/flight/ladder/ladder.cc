@@ -11,6 +11,10 @@
 namespace ident {
 namespace {
 
+// Constants that no refinement may take out of their limits.
+constexpr std::array kOfABody{param::m, param::kT, param::Jxx, param::Jyy, param::Jzz};
+constexpr double kAbsent = 0.01;       // of an effect's usual size: it is not there
+constexpr double kExplains = 0.7;      // of the error without a model: half of its square is explained
 constexpr double kLeastHeldOut = 1.5;  // s: a window of the longest horizon, and a second one
 
 FlightRecord training_of(const FlightRecord& record, double share) {
@@ -72,7 +76,7 @@ class Climb {
   void judge_full(const FullModel& full) {
     RungResult rung{.rung = Rung::full, .p = full.of_all};
     for (const FreeConstant& c : free_constants(*record_.vehicle, record_.p)) {
-      if (!c.prior_std || !c.positive || c.index == param::omega_m || c.index == param::zeta_m) continue;
+      if (!c.prior_std || std::ranges::none_of(kOfABody, [&](int of) { return of == c.index; })) continue;
       const double u = std::log(full.of_all[static_cast<std::size_t>(c.index)] / c.start);
       const auto [low, high] = limits_of(c);
       if (!(u >= low && u <= high)) rung.beyond.push_back(c.name);
@@ -86,7 +90,8 @@ class Climb {
     for (const std::string& name : names)
       if (name.find('.') != std::string::npos) also.push_back(name);
     std::vector<FreeConstant> constants = free_constants(*record_.vehicle, p, also);
-    std::erase_if(constants, [&](const FreeConstant& c) { return std::ranges::find(names, c.name) == names.end(); });
+    std::erase_if(constants,
+                  [&](const FreeConstant& c) { return std::ranges::find(names, c.name) == names.end(); });
     // Limits are those about what was stated, wherever the search starts.
     for (FreeConstant& c : constants) c.start = record_.p[static_cast<std::size_t>(c.index)];
     return {p, std::move(constants), record_.logs, false};
@@ -108,9 +113,10 @@ class Climb {
     for (int i = 0; i < theta.constants_count(); ++i) {
       const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
       const double value = theta.physical(whole.u, i);
-      const bool absent = find_effect_parameter(c.name) && value == default_value(c.name);
-      if (absent) continue;
-      if (whole.at_limit[static_cast<std::size_t>(i)]) rung.beyond.push_back(c.name);
+      const bool effect = find_effect_parameter(c.name) != nullptr;
+      if (effect && std::abs(value - default_value(c.name)) < kAbsent * c.scale) continue;
+      const bool rotors = c.index == param::kQ || c.index == param::km;  // which nobody states well
+      if (whole.at_limit[static_cast<std::size_t>(i)] && !rotors) rung.beyond.push_back(c.name);
       const double apart = value - of_training.physical(trained.u, i);
       const double std = std::hypot(theta.deviation(whole.u, i, whole.covariance), apart);
       rung.constants.push_back({c.name, value, std, c.prior_std, c.prior_value});
@@ -126,6 +132,7 @@ class Climb {
     std::vector<WindowErrors> errors = held_out_errors(held_out_motion_, trained);
     rung.error = table_of(errors);
     if (!rung.beyond.empty()) rung.refusal = Refusal::beyond;
+    if (rung.rung == Rung::inertia && !explains_rates(rung)) rung.refusal = Refusal::unexplained;
     for (const Standing& lower : standing_)
       if (rung.refusal == Refusal::none) refuse_where_worse(rung, errors, lower);
     const bool good = rung.refusal == Refusal::none;
@@ -137,12 +144,20 @@ class Climb {
     return good;
   }
 
-  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors, const Standing& lower) const {
+  // Of the first tenth of a second, before what turns the vehicle is turned back.
+  bool explains_rates(const RungResult& rung) const {
+    const auto rate = static_cast<std::size_t>(Metric::rate);
+    return rung.error[rate][0] < kExplains * result_.persistence[rate][0];
+  }
+
+  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors,
+                          const Standing& lower) const {
     const RungResult& other = result_.rungs[lower.rung];
     for (std::size_t m = 0; m < kMetrics; ++m)
       for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
-        const bool judges = other.error[m][h] < result_.persistence[m][h];
         const Metric metric = static_cast<Metric>(m);
+        const bool judges =
+            metric == Metric::velocity || other.error[m][h] < kExplains * result_.persistence[m][h];
         if (!judges || !worse_beyond_chance(errors, lower.errors, metric, h)) continue;
         rung.refusal = Refusal::worse;
         rung.than = other.rung, rung.metric = metric, rung.horizon = h;
@@ -169,7 +184,7 @@ std::optional<LadderResult> climb_ladder(const FlightRecord& record, const std::
   const auto rate = static_cast<std::size_t>(Metric::rate);
   result.moments_unexplained =
       climb.motion().moments && std::ranges::none_of(result.rungs, [&](const RungResult& rung) {
-        return rung.error[rate][1] < result.persistence[rate][1];
+        return rung.error[rate][0] < kExplains * result.persistence[rate][0];
       });
   return result;
 }

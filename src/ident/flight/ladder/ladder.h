@@ -26,8 +26,9 @@ using ErrorTable = std::array<std::array<double, kLadderHorizons.size()>, kMetri
 /// Why a rung is not stood on.
 enum class Refusal {
   none,
-  worse,    ///< it predicts held-out flight worse than a lower one
-  beyond,   ///< it asks for a constant that no such vehicle has
+  worse,        ///< it predicts held-out flight worse than a lower one
+  beyond,       ///< it asks for a constant that no such vehicle has
+  unexplained,  ///< what was logged of the rotors does not explain how the vehicle turned
 };
 
 struct RungResult {
@@ -37,10 +38,10 @@ struct RungResult {
   Correlation correlation;              ///< of those
   ErrorTable error{};                   ///< on held-out flight, fitted to the rest
   Refusal refusal = Refusal::none;
-  Rung than = Rung::stated;             ///< worse than that one
-  Metric metric = Metric::velocity;     ///< in that
-  std::size_t horizon = 0;              ///< at that one of kLadderHorizons
-  std::vector<std::string> beyond;      ///< constants beyond their limits
+  Rung than = Rung::stated;          ///< worse than that one
+  Metric metric = Metric::velocity;  ///< in that
+  std::size_t horizon = 0;           ///< at that one of kLadderHorizons
+  std::vector<std::string> beyond;   ///< constants beyond their limits
 };
 
 struct LadderResult {
@@ -48,7 +49,7 @@ struct LadderResult {
   std::size_t chosen = 0;         ///< the highest that is stood on
   ErrorTable persistence{};       ///< errors of no model: velocity and rates stay what they were
   double seconds = 0.0;           ///< of held-out flight
-  /// Moments do not say how the vehicle turned: by no rung are rates predicted better than by no model.
+  /// What was logged of the rotors does not say how the vehicle turned: no rung explains half of it.
   bool moments_unexplained = false;
 };
 
@@ -57,10 +58,11 @@ struct FullModel {
   std::vector<double> of_training, of_all;
 };
 
-/// Climbs from what the record's vehicle states. Each rung adds constants to the highest that is stood on, and
-/// is stood on if no error is greater than that of a lower one beyond chance. An error that is no smaller than
-/// without any model judges nothing: inputs do not explain that motion on either rung. Nothing where the logs
-/// tell of neither forces nor moments, or hold too little flight.
+/// Climbs from what the record's vehicle states. Each rung adds constants to the highest that is stood on,
+/// and is stood on if no error is greater than that of a lower one beyond chance. An error of turning, or of
+/// what follows from it, judges nothing where the lower rung explains less than half of it: the inputs do not
+/// tell it, on either rung. Nothing where the logs tell of neither forces nor moments, or hold too little
+/// flight.
 std::optional<LadderResult> climb_ladder(const FlightRecord& record, const std::optional<FullModel>& full);
 
 }  // namespace ident

@@ -9,6 +9,8 @@
 namespace ident {
 namespace {
 
+constexpr double kRow = 0.01;  // s: motion below some 10 Hz is what windows of a tenth of a second show
+
 // Turned from one row to the next by the mean of the rates at both.
 void turn_by_rates(std::vector<BodyState<double>>& body, const std::vector<double>& t) {
   for (std::size_t i = 0; i + 1 < body.size(); ++i) {
@@ -19,7 +21,8 @@ void turn_by_rates(std::vector<BodyState<double>>& body, const std::vector<doubl
   }
 }
 
-std::vector<Vec3<double>> integral_of_force(const FlightArc& arc, const std::vector<BodyState<double>>& body) {
+std::vector<Vec3<double>> integral_of_force(const FlightArc& arc,
+                                            const std::vector<BodyState<double>>& body) {
   std::array<std::vector<double>, 3> f;
   for (int k = 0; k < 3; ++k) f[static_cast<std::size_t>(k)] = filled_column(arc, kForce + k);
   std::vector<Vec3<double>> sum(arc.rows(), Vec3<double>::Zero());
@@ -31,6 +34,21 @@ std::vector<Vec3<double>> integral_of_force(const FlightArc& arc, const std::vec
     before = now;
   }
   return sum;
+}
+
+// Every so many rows.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t every) {
+  std::vector<T> some;
+  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
+  return some;
+}
+
+void thin_out(MeasuredArc& measured, double interval) {
+  const auto every = static_cast<std::size_t>(std::max(1.0, std::floor(kRow / interval + 0.5)));
+  measured.t = thinned(measured.arc->t, every);
+  measured.body = thinned(measured.body, every), measured.gained_W = thinned(measured.gained_W, every);
+  for (std::size_t i = 0; i < measured.arc->rows(); i += every) measured.row.push_back(i);
 }
 
 }  // namespace
@@ -54,16 +72,19 @@ MeasuredMotion measured_motion(const FlightRecord& record) {
       measured.gained_W = integral_of_force(arc, measured.body);
     }
     if (motion.forces && measured.gained_W.empty()) continue;
+    thin_out(measured, record.interval);
     motion.arcs.push_back(std::move(measured));
   }
   return motion;
 }
 
+double typical_row(const MeasuredMotion& motion) { return std::max(kRow, motion.record->interval); }
+
 std::vector<Window> windows_of(const MeasuredMotion& motion, double horizon, double spacing) {
   std::vector<Window> all;
   for (std::size_t a = 0; a < motion.arcs.size(); ++a) {
-    const std::vector<double>& t = motion.arcs[a].arc->t;
-    const double early = 0.5 * motion.record->interval;
+    const std::vector<double>& t = motion.arcs[a].t;
+    const double early = 0.5 * typical_row(motion);
     std::size_t begin = 0, end = 0;
     for (double from = t.front(); from + horizon <= t.back() + early; from += spacing) {
       while (t[begin] < from - 1e-9) ++begin;

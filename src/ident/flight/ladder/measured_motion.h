@@ -10,8 +10,10 @@ namespace ident {
 /// An arc of the record with its attitude, and the velocity that forces other than gravity gave it.
 struct MeasuredArc {
   const FlightArc* arc = nullptr;
-  std::vector<BodyState<double>> body;  ///< [row]; attitude from rates alone where none was logged
-  std::vector<Vec3<double>> gained_W;   ///< [row] v_W - g t, or the integral of the specific force, m/s
+  std::vector<std::size_t> row;         ///< those of the arc that are looked at: a hundred a second
+  std::vector<double> t;                ///< s
+  std::vector<BodyState<double>> body;  ///< attitude from rates alone where none was logged
+  std::vector<Vec3<double>> gained_W;   ///< v_W - g t, or the integral of the specific force, m/s
 };
 
 struct MeasuredMotion {
@@ -25,7 +27,10 @@ struct MeasuredMotion {
 /// The record must outlive it.
 MeasuredMotion measured_motion(const FlightRecord& record);
 
-/// A piece of flight over which a model is compared with what was measured: rows of an arc.
+/// Usual time between the rows that are looked at, s.
+double typical_row(const MeasuredMotion& motion);
+
+/// A piece of flight over which a model is compared with what was measured: rows of a measured arc.
 struct Window {
   std::size_t arc = 0, begin = 0, end = 0;
   double t = 0.0;      ///< start, s

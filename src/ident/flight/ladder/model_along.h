@@ -10,9 +10,10 @@ namespace ident {
 
 /// Along one arc; attitude, rates, velocity and position are those measured.
 struct ModelAlong {
-  std::vector<Vec3<double>> gained_W;  ///< [row] integral of the specific force in the world, m/s
-  std::vector<Vec3<double>> turned_B;  ///< [row] integral of the angular acceleration, rad/s
-  std::vector<std::array<MotorState<double>, kMaxRotors>> motors;  ///< [row], from the commands or measured
+  std::vector<Vec3<double>> gained_W;  ///< [row looked at] integral of the specific force in the world, m/s
+  std::vector<Vec3<double>> turned_B;  ///< [row looked at] integral of the angular acceleration, rad/s
+  std::vector<std::array<MotorState<double>, kMaxRotors>>
+      motors;  ///< [row looked at], from the commands or measured
 };
 
 /// One for each arc of the motion. `p`: the model's constants.

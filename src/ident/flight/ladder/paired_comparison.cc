@@ -9,10 +9,10 @@
 namespace ident {
 namespace {
 
-constexpr double kBlock = 2.0;       // s: twice the longest horizon
-constexpr double kLevel = 0.01;      // of the test
-constexpr std::size_t kFewest = 5;   // blocks for a test
-constexpr double kPlainly = 1.05;    // ratio of errors that needs no test
+constexpr double kBlock = 2.0;      // s: twice the longest horizon
+constexpr double kLevel = 0.01;     // of the test
+constexpr std::size_t kFewest = 5;  // blocks for a test
+constexpr double kPlainly = 1.05;   // ratio of errors that needs no test
 
 }  // namespace
 

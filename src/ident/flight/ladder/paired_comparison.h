@@ -6,8 +6,8 @@
 namespace ident {
 
 /// Whether errors `a` are greater than errors `b` of the same windows by more than chance: by a t test of the
-/// differences over blocks of flight, whose windows hang together, at 1 % on one side. With too few blocks for
-/// that, by more than a twentieth.
+/// differences over blocks of flight, whose windows hang together, at 1 % on one side. With too few blocks
+/// for that, by more than a twentieth.
 bool worse_beyond_chance(const std::vector<WindowErrors>& a, const std::vector<WindowErrors>& b,
                          Metric metric, std::size_t horizon);
 

@@ -15,8 +15,7 @@ double lowest_in_arms(const MeasuredMotion& motion) {
   double arm = 0, lowest = std::numeric_limits<double>::infinity();
   for (const Rotor& rotor : vehicle.rotors) arm = std::max(arm, rotor.r_B.head<2>().norm());
   for (const MeasuredArc& arc : motion.arcs)
-    for (const BodyState<double>& body : arc.body)
-      lowest = std::min(lowest, vehicle.ground_z - body.x_W[2]);
+    for (const BodyState<double>& body : arc.body) lowest = std::min(lowest, vehicle.ground_z - body.x_W[2]);
   return lowest / arm;
 }
 
@@ -30,17 +29,14 @@ std::vector<RungModel> rungs_for(const MeasuredMotion& motion) {
     all.push_back({Rung::thrust, FitTo::forces, {"m", "kT"}});
     if (commands_alone) all.back().constants.emplace_back("km");
   }
-  if (motion.velocity) {
-    all.push_back({Rung::drag, FitTo::forces, {"rotor_drag.kd"}});
-    all.push_back({Rung::air,
-                   FitTo::forces,
-                   {"axial_inflow.kz", "translational_lift.kh", "parasitic_drag.C"}});
-  }
-  RungModel around{Rung::surroundings, FitTo::forces, {}};
-  if (commands_alone && logged.voltage) around.constants.emplace_back("battery_sag.n");
+  if (motion.velocity) all.push_back({Rung::drag, FitTo::forces, {"rotor_drag.kd"}});
+  if (motion.forces && commands_alone && logged.voltage)
+    all.push_back({Rung::battery, FitTo::forces, {"battery_sag.n"}});
   if (motion.forces && logged.position && lowest_in_arms(motion) < kGroundReach)
-    around.constants.emplace_back("ground_effect.radius_sq");
-  if (motion.forces && !around.constants.empty()) all.push_back(std::move(around));
+    all.push_back({Rung::ground, FitTo::forces, {"ground_effect.radius_sq"}});
+  if (motion.velocity)
+    all.push_back(
+        {Rung::air, FitTo::forces, {"axial_inflow.kz", "translational_lift.kh", "parasitic_drag.C"}});
   if (motion.moments) {
     all.push_back({Rung::trim, FitTo::moments, {"cg_offset.x", "cg_offset.y"}});
     if (motion.velocity) all.back().constants.emplace_back("blade_flapping.kf");

@@ -12,14 +12,15 @@ namespace ident {
 
 /// What a model of the ladder has beyond the one below it.
 enum class Rung {
-  stated,        ///< nothing
-  thrust,        ///< thrust for the speeds or commands flown, against the weight
-  drag,          ///< drag of the rotors
-  air,           ///< what else the air does to rotors and body
-  surroundings,  ///< battery and ground
-  trim,          ///< moments that last: balance, and what the airspeed does to the hubs
-  inertia,       ///< moments of inertia and torque of the rotors
-  full,          ///< everything that the refinement has
+  stated,   ///< nothing
+  thrust,   ///< thrust for the speeds or commands flown, against the weight
+  drag,     ///< drag of the rotors
+  battery,  ///< rotor speed for a command by the voltage
+  ground,   ///< thrust by the height above the ground
+  air,      ///< what else the air does to rotors and body
+  trim,     ///< moments that last: balance, and what the airspeed does to the hubs
+  inertia,  ///< moments of inertia and torque of the rotors
+  full,     ///< everything that the refinement has
 };
 
 /// A rung between the stated and the full model, and what of it these logs can tell.

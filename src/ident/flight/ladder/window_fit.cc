@@ -20,10 +20,11 @@ using Eigen::VectorXd;
 
 constexpr double kForceHorizon = 0.5, kForceSpacing = 0.1;     // s: users judge by half a second
 constexpr double kMomentHorizon = 0.1, kMomentSpacing = 0.05;  // s: rates are turned back sooner
-constexpr double kBlock = 2.0;     // s over which residuals are taken for related
-constexpr int kSteps = 8;          // most Gauss-Newton steps; the model is nearly linear
-constexpr double kStill = 1e-4;    // of a unit: no step worth another
-constexpr double kApart = 1e-3;    // of a unit, for differences
+constexpr double kBlock = 2.0;                                 // s over which residuals are taken for related
+constexpr int kSloped = 2;  // of them with slopes of their own: forces are nearly linear in all constants
+constexpr int kSteps = 6;   // most Gauss-Newton steps; the model is nearly linear
+constexpr double kStill = 1e-3;  // of a unit: no step worth another
+constexpr double kApart = 1e-3;  // of a unit, for differences
 
 // Both sides of (1) at given constants, three components a window.
 VectorXd missed(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
@@ -33,25 +34,24 @@ VectorXd missed(const MeasuredMotion& motion, const std::vector<Window>& windows
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const auto& [a, begin, end, t, speed] = windows[w];
     const MeasuredArc& measured = motion.arcs[a];
-    const Vec3<double> miss =
-        what == FitTo::forces ? Vec3<double>(measured.gained_W[end] - measured.gained_W[begin] -
-                                             (model[a].gained_W[end] - model[a].gained_W[begin]))
-                              : Vec3<double>(measured.body[end].w_B - measured.body[begin].w_B -
-                                             (model[a].turned_B[end] - model[a].turned_B[begin]));
+    const Vec3<double> miss = what == FitTo::forces
+                                  ? Vec3<double>(measured.gained_W[end] - measured.gained_W[begin] -
+                                                 (model[a].gained_W[end] - model[a].gained_W[begin]))
+                                  : Vec3<double>(measured.body[end].w_B - measured.body[begin].w_B -
+                                                 (model[a].turned_B[end] - model[a].turned_B[begin]));
     out.segment<3>(3 * static_cast<Eigen::Index>(w)) = miss;
   }
   return out;
 }
 
 MatrixXd slopes(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
-                const Theta& theta, const VectorXd& u) {
+                const Theta& theta, const VectorXd& u, const VectorXd& here) {
   MatrixXd J(3 * static_cast<Eigen::Index>(windows.size()), u.size());
   in_parallel(static_cast<std::size_t>(u.size()), [&](std::size_t i) {
     const auto k = static_cast<Eigen::Index>(i);
-    VectorXd up = u, down = u;
-    up[k] += kApart, down[k] -= kApart;
-    J.col(k) = (missed(motion, windows, what, theta.p(up)) - missed(motion, windows, what, theta.p(down))) /
-               (2 * kApart);
+    VectorXd moved = u;
+    moved[k] += kApart;
+    J.col(k) = (missed(motion, windows, what, theta.p(moved)) - here) / kApart;
   });
   return J;
 }
@@ -121,14 +121,15 @@ VectorXd step_within(const MatrixXd& A, const VectorXd& b, const VectorXd& u, co
 
 WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what) {
   const bool forces = what == FitTo::forces;
-  const std::vector<Window> windows = windows_of(motion, forces ? kForceHorizon : kMomentHorizon,
-                                                 forces ? kForceSpacing : kMomentSpacing);
+  const std::vector<Window> windows =
+      windows_of(motion, forces ? kForceHorizon : kMomentHorizon, forces ? kForceSpacing : kMomentSpacing);
   WindowFit fit;
   fit.windows = windows.size();
   fit.u = VectorXd::Zero(theta.size());
+  MatrixXd J;
   for (int round = 0; round < kSteps; ++round) {
     const VectorXd r = missed(motion, windows, what, theta.p(fit.u));
-    const MatrixXd J = slopes(motion, windows, what, theta, fit.u);
+    if (round < kSloped) J = slopes(motion, windows, what, theta, fit.u, r);
     const VectorXd weight = weight_by_speed(windows, r);
     const VectorXd weighted = weight.cwiseProduct(r);
     const MatrixXd H = J.transpose() * weight.asDiagonal() * J;

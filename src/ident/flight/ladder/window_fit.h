@@ -21,16 +21,16 @@ namespace ident {
 enum class FitTo { forces, moments };
 
 struct WindowFit {
-  std::vector<double> p;         ///< the model's constants, those that were fitted among them
-  Eigen::VectorXd u;             ///< of the theta of the call
-  Eigen::MatrixXd covariance;    ///< of u: residuals are taken for as coloured as blocks of them show
-  std::vector<bool> at_limit;    ///< [constant] the fit asked for more than a vehicle can have
+  std::vector<double> p;       ///< the model's constants, those that were fitted among them
+  Eigen::VectorXd u;           ///< of the theta of the call
+  Eigen::MatrixXd covariance;  ///< of u: residuals are taken for as coloured as blocks of them show
+  std::vector<bool> at_limit;  ///< [constant] the fit asked for more than a vehicle can have
   std::size_t windows = 0;
 };
 
-/// Constants of `theta` (no gyro bias) from (1) and their priors. The error of the model is taken to grow with
-/// speed as the residuals show it to, so that slow flight, in which thrust carries the weight and little else
-/// acts, says what thrust is. Estimates do not leave what a vehicle can have; see `limits_of`.
+/// Constants of `theta` (no gyro bias) from (1) and their priors. The error of the model is taken to grow
+/// with speed as the residuals show it to, so that slow flight, in which thrust carries the weight and little
+/// else acts, says what thrust is. Estimates do not leave what a vehicle can have; see `limits_of`.
 WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what);
 
 }  // namespace ident
