@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "ident/effects/all_parameters.h"
-#include "ident/views/ladder.h"
+#include "ident/views/ladder_section.h"
 
 namespace ident {
 namespace {

@@ -1,5 +1,5 @@
 // Names, units and words of the ladder.
-#include "ident/views/ladder.h"
+#include "ident/views/ladder_section.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
