@@ -97,14 +97,16 @@ Section ladder_section(const LadderResult& ladder) {
   Section section{.title = "Ladder of models",
                   .text = fmt::format("Each model is fitted to the first 70 % of each log and predicts the "
                                       "rest, {:.0f} s. Taken is the highest that is in no error worse than a "
-                                      "lower one beyond chance: the model {}.",
-                                      ladder.seconds, rung_name(chosen.rung))};
+                                      "lower one beyond chance: {}.",
+                                      ladder.seconds,
+                                      chosen.rung == Rung::full ? "the full refinement"
+                                                                : "the model " + rung_name(chosen.rung))};
   if (ladder.moments_unexplained)
-    section.text +=
-        " No model predicts rates better than no model at all: what was logged of the rotors does not "
-        "explain "
-        "how the vehicle turned, and its inertia stays open. Rotor speeds, or commands at the rate at which "
-        "they are sent, would tell.";
+    section.text += fmt::format(
+        " No model predicts rates much better than no model at all: what was logged of the rotors does not "
+        "explain how the vehicle turned, and its inertia stays open. {}",
+        ladder.rotor_speeds ? "Other arms, hub moments or spins than those stated may be behind it."
+                            : "Rotor speeds, or commands at the rate at which they are sent, would tell.");
   for (std::size_t m = 0; m < kMetrics; ++m) {
     if (!std::isfinite(ladder.persistence[m][0])) continue;
     Table table{fmt::format("Error of {}, {}", kTexts[m].name, kTexts[m].unit), {"model"}, {}};

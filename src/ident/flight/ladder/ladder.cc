@@ -182,6 +182,7 @@ std::optional<LadderResult> climb_ladder(const FlightRecord& record, const std::
   for (const RungModel& model : rungs_for(climb.motion())) climb.fit(model);
   if (full) climb.judge_full(*full);
   const auto rate = static_cast<std::size_t>(Metric::rate);
+  result.rotor_speeds = record.signals.rotor_speeds;
   result.moments_unexplained =
       climb.motion().moments && std::ranges::none_of(result.rungs, [&](const RungResult& rung) {
         return rung.error[rate][0] < kExplains * result.persistence[rate][0];

@@ -51,6 +51,7 @@ struct LadderResult {
   double seconds = 0.0;           ///< of held-out flight
   /// What was logged of the rotors does not say how the vehicle turned: no rung explains half of it.
   bool moments_unexplained = false;
+  bool rotor_speeds = false;  ///< were logged: what turned the vehicle was not hidden behind commands
 };
 
 /// The refined model: its constants by the flight before what is held out, and by all.
