@@ -30,10 +30,12 @@
 #include "ident/flight/fit/hover_priors.h"
 #include "ident/flight/fit/input_sensitivity.h"
 #include "ident/flight/fit/physical_inertia.h"
+#include "ident/flight/ladder/ladder.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/record/channel_units.h"
 #include "ident/flight/record/excerpts.h"
 #include "ident/flight/refine_trim.h"
+#include "ident/views/chosen_rung.h"
 #include "ident/views/data_health.h"
 #include "ident/views/flight_residuals.h"
 #include "ident/views/held_out_section.h"
@@ -160,6 +162,8 @@ void validate(Result& result, const FlightRecord& record, const Theta& theta, Fl
   result.fit["held_out"] = held_out_json(validation);
   result.sections.push_back(held_out_section(validation, held_out, theta, before, view, shown));
   if (validation.worse) doubt_where_worse(result, predicts_worse_text(validation));
+  const FullModel full{theta.p(view.u), theta.p(nearest_body(theta, fit))};
+  if (const auto ladder = climb_ladder(record, full)) settle_for_chosen(result, *ladder, *record.vehicle);
 }
 
 std::string verdict(const Result& result, double seconds) {

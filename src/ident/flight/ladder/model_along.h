@@ -1,0 +1,22 @@
+// What a model says along measured flight: the velocity and the rates that its forces and moments give.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ident/flight/ladder/measured_motion.h"
+
+namespace ident {
+
+/// Along one arc; attitude, rates, velocity and position are those measured.
+struct ModelAlong {
+  std::vector<Vec3<double>> gained_W;  ///< [row looked at] integral of the specific force in the world, m/s
+  std::vector<Vec3<double>> turned_B;  ///< [row looked at] integral of the angular acceleration, rad/s
+  std::vector<std::array<MotorState<double>, kMaxRotors>>
+      motors;  ///< [row looked at], from the commands or measured
+};
+
+/// One for each arc of the motion. `p`: the model's constants.
+std::vector<ModelAlong> model_along(const MeasuredMotion& motion, std::span<const double> p);
+
+}  // namespace ident

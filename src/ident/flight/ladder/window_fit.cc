@@ -1,0 +1,153 @@
+// Gauss-Newton steps with the derivatives of the model by differences, held within limits.
+#include "ident/flight/ladder/window_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "ident/core/parallel.h"
+#include "ident/core/statistics.h"
+#include "ident/flight/ladder/constant_limits.h"
+#include "ident/flight/ladder/error_by_speed.h"
+#include "ident/flight/ladder/model_along.h"
+
+namespace ident {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kForceHorizon = 0.5, kForceSpacing = 0.1;     // s: users judge by half a second
+constexpr double kMomentHorizon = 0.1, kMomentSpacing = 0.05;  // s: rates are turned back sooner
+constexpr double kBlock = 2.0;                                 // s over which residuals are taken for related
+constexpr int kSloped = 2;  // of them with slopes of their own: forces are nearly linear in all constants
+constexpr int kSteps = 6;   // most Gauss-Newton steps; the model is nearly linear
+constexpr double kStill = 1e-3;  // of a unit: no step worth another
+constexpr double kApart = 1e-3;  // of a unit, for differences
+
+// Both sides of (1) at given constants, three components a window.
+VectorXd missed(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
+                std::span<const double> p) {
+  const std::vector<ModelAlong> model = model_along(motion, p);
+  VectorXd out(3 * static_cast<Eigen::Index>(windows.size()));
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const auto& [a, begin, end, t, speed] = windows[w];
+    const MeasuredArc& measured = motion.arcs[a];
+    const Vec3<double> miss = what == FitTo::forces
+                                  ? Vec3<double>(measured.gained_W[end] - measured.gained_W[begin] -
+                                                 (model[a].gained_W[end] - model[a].gained_W[begin]))
+                                  : Vec3<double>(measured.body[end].w_B - measured.body[begin].w_B -
+                                                 (model[a].turned_B[end] - model[a].turned_B[begin]));
+    out.segment<3>(3 * static_cast<Eigen::Index>(w)) = miss;
+  }
+  return out;
+}
+
+MatrixXd slopes(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
+                const Theta& theta, const VectorXd& u, const VectorXd& here) {
+  MatrixXd J(3 * static_cast<Eigen::Index>(windows.size()), u.size());
+  in_parallel(static_cast<std::size_t>(u.size()), [&](std::size_t i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    VectorXd moved = u;
+    moved[k] += kApart;
+    J.col(k) = (missed(motion, windows, what, theta.p(moved)) - here) / kApart;
+  });
+  return J;
+}
+
+// How much more the score of each unknown varies from block to block than independent windows would have it.
+VectorXd colour(const std::vector<Window>& windows, const MatrixXd& J, const VectorXd& weighted,
+                const VectorXd& information) {
+  std::map<std::pair<std::size_t, long>, VectorXd> blocks;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    VectorXd& score = blocks[{windows[w].arc, std::lround(std::floor(windows[w].t / kBlock))}];
+    if (score.size() == 0) score = VectorXd::Zero(J.cols());
+    const auto at = 3 * static_cast<Eigen::Index>(w);
+    score += J.middleRows(at, 3).transpose() * weighted.segment<3>(at);
+  }
+  VectorXd sum = VectorXd::Zero(J.cols());
+  for (const auto& [block, score] : blocks) sum += score.cwiseAbs2();
+  return sum.cwiseQuotient(information.cwiseMax(1e-300)).cwiseMax(1.0);
+}
+
+// What was known, and for the rest that a vehicle has it within its limits.
+struct Stated {
+  MatrixXd information;
+  VectorXd gradient;
+};
+Stated stated(const Theta& theta, const VectorXd& u) {
+  const PriorTerms prior = theta.prior(u);
+  Stated out{prior.information(), prior.gradient()};
+  for (int i = 0; i < theta.constants_count(); ++i) {
+    const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
+    if (c.prior_std) continue;
+    const double s = spread_without_prior(c);
+    out.information(i, i) += 1 / (s * s), out.gradient[i] += u[i] / (s * s);
+  }
+  return out;
+}
+
+// The step of the normal equations that keeps to the limits: what would leave them stops there.
+VectorXd step_within(const MatrixXd& A, const VectorXd& b, const VectorXd& u, const Theta& theta,
+                     std::vector<bool>& at_limit) {
+  const auto n = u.size();
+  VectorXd step = VectorXd::Zero(n);
+  at_limit.assign(static_cast<std::size_t>(n), false);
+  for (Eigen::Index round = 0; round <= n; ++round) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (!at_limit[static_cast<std::size_t>(i)]) free.push_back(i);
+    if (free.empty()) break;
+    VectorXd rest = b;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (at_limit[static_cast<std::size_t>(i)]) rest -= A.col(i) * step[i];
+    const VectorXd some = MatrixXd(A(free, free)).ldlt().solve(VectorXd(rest(free)));
+    bool held = false;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const Eigen::Index i = free[k];
+      const auto [low, high] = limits_of(theta.constants()[static_cast<std::size_t>(i)]);
+      step[i] = some[static_cast<Eigen::Index>(k)];
+      if (u[i] + step[i] >= low && u[i] + step[i] <= high) continue;
+      step[i] = std::clamp(u[i] + step[i], low, high) - u[i];
+      at_limit[static_cast<std::size_t>(i)] = held = true;
+    }
+    if (!held) break;
+  }
+  return step;
+}
+
+}  // namespace
+
+WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what) {
+  const bool forces = what == FitTo::forces;
+  const std::vector<Window> windows =
+      windows_of(motion, forces ? kForceHorizon : kMomentHorizon, forces ? kForceSpacing : kMomentSpacing);
+  WindowFit fit;
+  fit.windows = windows.size();
+  fit.u = VectorXd::Zero(theta.size());
+  MatrixXd J;
+  for (int round = 0; round < kSteps; ++round) {
+    const VectorXd r = missed(motion, windows, what, theta.p(fit.u));
+    if (round < kSloped) J = slopes(motion, windows, what, theta, fit.u, r);
+    const VectorXd weight = weight_by_speed(windows, r);
+    const VectorXd weighted = weight.cwiseProduct(r);
+    const MatrixXd H = J.transpose() * weight.asDiagonal() * J;
+    const VectorXd g = J.transpose() * weighted;
+    const VectorXd factor = colour(windows, J, weighted, H.diagonal()).cwiseSqrt().cwiseInverse();
+    const Stated prior = stated(theta, fit.u);
+    const MatrixXd A = factor.asDiagonal() * H * factor.asDiagonal() + prior.information;
+    // The data's own step under that information, so that colour moves the weight against priors only.
+    const MatrixXd data = factor.asDiagonal() * H * factor.asDiagonal();
+    const VectorXd own =
+        (H + 1e-9 * MatrixXd(H.diagonal().asDiagonal()) + 1e-12 * prior.information).ldlt().solve(-g);
+    const VectorXd step = step_within(A, data * own - prior.gradient, fit.u, theta, fit.at_limit);
+    fit.u += step;
+    fit.covariance = A.ldlt().solve(MatrixXd::Identity(A.rows(), A.cols()));
+    if (step.cwiseAbs().maxCoeff() < kStill) break;
+  }
+  fit.p = theta.p(fit.u);
+  return fit;
+}
+
+}  // namespace ident
