@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
-#include "ident/core/json_number.h"
+#include "ident/result/json_number.h"
 #include "ident/effects/all_parameters.h"
 
 namespace ident {
