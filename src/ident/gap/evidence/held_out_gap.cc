@@ -17,22 +17,22 @@ nlohmann::ordered_json as_json(const GapClosed& gap) {
           {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}}};
 }
 
-constexpr double kJudgedHorizon = 0.5;  // s
-
 bool has_room(const HeldOutGap& all, double horizon) {
   const double least = all.windows.history + horizon;
   return std::ranges::any_of(all.record.arcs,
                              [&](const FlightArc& arc) { return arc.t.back() - arc.t.front() > least; });
 }
 
-GapClosed judged_of(const HeldOutGap& all) {
+// Sets which horizon is judged, and what it shows.
+void judge_horizon(HeldOutGap& all) {
   constexpr std::size_t kFewWindows = 10;
-  GapClosed out = all.gap;
-  if (has_room(all, kJudgedHorizon)) return out;
+  all.judged = all.gap;
+  if (has_room(all, kJudgedHorizon)) return;
   const bool pieces = all.windows.horizons[0] < kJudgedHorizon && all.before[0].size() >= kFewWindows;
-  if (pieces) return all.horizons[0];
-  out.held_out = false;
-  return out;
+  if (pieces)
+    all.judged_at = 0, all.judged = all.horizons[0];
+  else
+    all.judged.held_out = false;
 }
 
 }  // namespace
@@ -50,9 +50,9 @@ HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search) 
   all.after = predict_windows(all.record, *search.best.theta, all.found, noise, all.windows);
   for (std::size_t h = 0; h < all.windows.horizons.size(); ++h) {
     all.horizons.push_back(gap_closed(all.before[h], all.after[h]));
-    if (all.windows.horizons[h] == kJudgedHorizon) all.gap = all.horizons.back();
+    if (all.windows.horizons[h] == kJudgedHorizon) all.gap = all.horizons.back(), all.judged_at = h;
   }
-  all.judged = judged_of(all);
+  judge_horizon(all);
   return all;
 }
 
@@ -60,8 +60,8 @@ GapClosed closed_alone(const HeldOutGap& all, const SearchResult& search, const 
   if (search.best.adopted.size() == 1) return all.gap;
   PredictionOptions fewer = all.windows;  // every other one tells causes apart
   fewer.horizons = {all.windows.horizons[1]}, fewer.spacing *= 2;
-  const auto alone = predict_windows(all.record, *search.best.theta, with_only(search.best, all.found, cause),
-                                     search.form.noise, fewer);
+  const auto alone = predict_windows(all.record, *search.best.theta,
+                                     with_only(search.best, all.found, {cause}), search.form.noise, fewer);
   return gap_closed(same_windows(all.before[1], alone[0]), alone[0]);
 }
 

@@ -54,16 +54,6 @@ std::vector<std::string> in_their_place(const SearchResult& search, const std::v
 
 }  // namespace
 
-std::vector<std::string> names_of(const std::vector<Candidate>& adopted) {
-  std::vector<std::string> names;
-  const bool wind = std::ranges::any_of(adopted, [](const Candidate& c) { return c.name == "wind"; });
-  for (const Candidate& c : adopted) {
-    if (wind && (c.name == "rotor_drag" || c.name == "parasitic_drag")) continue;
-    if (std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
-  }
-  return names;
-}
-
 std::vector<std::string> probable_names(const SearchResult& search, const std::vector<Parameter>& fitted) {
   constexpr double kHardlyThere = 0.1, kThere = 0.5;
   std::vector<std::string> names = names_of(search.best.adopted);

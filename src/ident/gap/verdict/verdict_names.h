@@ -9,9 +9,6 @@
 
 namespace ident {
 
-/// Each once; the effect `wind` brings its drag along as a nuisance when the vehicle file has none.
-std::vector<std::string> names_of(const std::vector<Candidate>& adopted);
-
 /// Those found, without those that were taken up and are hardly there once all are weighed by the scatter of
 /// the strongest: they mend its form. A battery that thrust itself shows is weighed otherwise.
 std::vector<std::string> probable_names(const SearchResult& search, const std::vector<Parameter>& fitted);
