@@ -22,7 +22,10 @@ struct CauseTraits {
   bool between_rows = false;  ///< what a controller does between two logged commands passes for it
   /// Causes that come with it: naming both says one thing twice.
   std::span<const std::string_view> implies = {};
-  /// What it is taken for where it is small; empty for none.
+  /// Causes whose signatures are next to its own in any but rich flight: where one was not tried, it may be
+  /// that one.
+  std::span<const std::string_view> look_alikes = {};
+  /// What it is where it is small: a payload too light to be weighed is a shifted centre of gravity.
   std::string_view alias_of = {};
 };
 

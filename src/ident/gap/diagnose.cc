@@ -13,6 +13,7 @@
 #include "ident/core/format_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/effects/all_parameters.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/flight/checks/command_rate.h"
 #include "ident/flight/checks/implausible_estimates.h"
 #include "ident/flight/checks/intersample_commands.h"
@@ -30,6 +31,7 @@
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/evidence.h"
 #include "ident/gap/evidence/held_out_gap.h"
+#include "ident/gap/evidence/shares.h"
 #include "ident/gap/search/model_search.h"
 #include "ident/gap/statistics/generic_rival.h"
 #include "ident/gap/statistics/residual_wrench.h"
@@ -37,10 +39,10 @@
 #include "ident/gap/verdict/open_commands.h"
 #include "ident/gap/verdict/out_of_balance.h"
 #include "ident/gap/verdict/seldom_input.h"
-#include "ident/gap/verdict/trust.h"
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/search_details.h"
+#include "ident/gap/views/verdict_json.h"
 
 namespace ident {
 namespace {
@@ -62,10 +64,9 @@ Judged in_hover(Judged verdict) {
   if (verdict.status == "none") return verdict;
   if (!verdict.effects.empty()) {
     verdict.sentence = fmt::format("The nearest is {}.", fmt::join(verdict.effects, " with "));
-    verdict.confused_with = std::exchange(verdict.effects, {});
+    verdict = unnamed(std::move(verdict));
   }
   verdict.status = "unknown";
-  verdict.refused = true;
   verdict.sentence +=
       " These logs hold little more than hover, and that tells no cause: none was tried in full. Fly "
       "doublets or a multisine about every axis.";
@@ -94,7 +95,7 @@ struct Looked : Diagnosis {
 void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehicle,
                      std::span<const FlightLog> logs) {
   const auto tells = [](const std::vector<std::string>& names) {
-    return std::ranges::find(names, "battery_sag") != names.end();
+    return std::ranges::any_of(names, [](const std::string& n) { return traits_of(n).of_battery; });
   };
   const double highest = highest_voltage(logs);
   if (vehicle.battery_voltage || !(highest > 0) || !(tells(verdict.effects) || tells(verdict.confused_with)))
@@ -105,11 +106,25 @@ void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehic
                           format_number(highest, 4)));
 }
 
+// Values that only a cause would have are not known where it is not named.
+void doubt_unnamed(std::vector<Parameter>& parameters, const std::vector<Candidate>& causes,
+                   const std::vector<std::string>& named) {
+  for (Parameter& p : parameters)
+    for (const Candidate& c : causes) {
+      const bool own = c.name == "parameter:" + p.name || p.name.substr(0, p.name.find('.')) == c.name;
+      const bool brought = std::ranges::any_of(named, [&](const auto& n) { return implies(n, c.name); });
+      if (!own || brought || std::ranges::find(named, c.name) != named.end()) continue;
+      p.doubt({});
+      p.note = "of a cause that is not named";
+    }
+}
+
 // What a search leaves to be judged; `before` and `after` are of the base model and of the one found.
 struct Findings {
   ResidualWrench before, after;
   Rival rival;
   HeldOutGap held_out;
+  GapShares shares;
   std::vector<SpectralLine> lines;
   std::vector<Burst> jumps;
 };
@@ -120,10 +135,13 @@ Findings findings_of(const FlightRecord& record, const SearchResult& search) {
   };
   ResidualWrench before = wrench(search.base);
   ResidualWrench after = search.best.adopted.empty() ? before : wrench(search.best);
+  HeldOutGap held_out = held_out_gap(record, search);
+  GapShares shares = gap_shares(held_out, search);
   return {std::move(before),
           std::move(after),
           generic_rival(record, *search.best.theta, search.best.fit, search.form.noise),
-          held_out_gap(record, search),
+          std::move(held_out),
+          std::move(shares),
           spectral_lines(record, search.best.fit),
           bursts(record, search.best.fit)};
 }
@@ -185,7 +203,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   const GapClosed& gap = seen.held_out.judged;
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   state_constants(result, search, vehicle, p, hover);
-  Judged verdict = judge(search, gap, seen.rival, seen.lines, seen.jumps, result.parameters);
+  Judged verdict = judge({search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, result.parameters});
   doubt_negative_dead_time(result);
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
@@ -206,17 +224,16 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
     verdict = with_open_commands(std::move(verdict), input_interval(record, logs));
   else if (doubtful)
     out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
-  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
+  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   warn_of_battery(result, verdict, vehicle, logs);
 
   result.verdict = verdict.sentence;
-  result.extra["verdict"] = to_json(verdict);
+  result.extra["verdict"] = to_json(verdict, seen.after);
   result.extra["where"] = where_json(seen.before);
   Json tried = causes_tried(
       search, [&](const Candidate& cause) { return closed_alone(seen.held_out, search, cause); });
-  if (verdict.refused) doubt_refused(result.parameters, search.best.adopted);
-  if (verdict.refused) trust_less(tried, verdict.effects);
-  if (verdict.plain) trust_more(tried, verdict.effects);
+  enter_causes(tried, verdict);
+  doubt_unnamed(result.parameters, search.best.adopted, verdict.effects);
   result.extra["candidates"] = std::move(tried);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
   result.extra["gap"] = as_json(seen.held_out);
@@ -260,7 +277,6 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
       result.verdict = wrong;
       distrust(result, wrong);
     }
-    if (result.extra["verdict"]["status"] == "unknown") trust_less(result.extra["candidates"], {});
     result.sections.push_back(data_health(record, logs, initial_noise(record), vibration));
     return out;
   }
