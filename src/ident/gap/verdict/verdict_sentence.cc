@@ -57,7 +57,7 @@ std::string unknown(const Judged& verdict, const Seen& seen) {
   return out + left(verdict) + (verdict.rest.signs.empty() ? missed(seen.gap) : "");
 }
 
-std::string none(const Judged& verdict, const Seen& seen) {
+std::string none(const Seen& seen) {
   const double ratio = seen.gap.after / seen.gap.floor;
   std::string out =
       "The model explains these logs down to the noise of the sensors and the air; no cause "
@@ -69,7 +69,6 @@ std::string none(const Judged& verdict, const Seen& seen) {
     out +=
         " They, or their pieces, are too short for flight to be held out: what they do not show may well "
         "be there, up to the sizes given.";
-  (void)verdict;
   return out;
 }
 
@@ -78,7 +77,7 @@ std::string none(const Judged& verdict, const Seen& seen) {
 std::string sentence_of(const Judged& verdict, const Seen& seen) {
   std::string out;
   if (verdict.status == "none") {
-    out = none(verdict, seen);
+    out = none(seen);
   } else if (verdict.status == "unknown") {
     out = unknown(verdict, seen);
   } else {
