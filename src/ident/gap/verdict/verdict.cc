@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "ident/effects/cause_traits.h"
@@ -103,18 +104,21 @@ Judged judge(const Seen& seen) {
 
 Judged unnamed(Judged verdict, const std::vector<std::string>& causes) {
   const auto is_one = [&](const std::string& name) { return is_among(name, causes); };
-  for (const std::string& name : verdict.effects)
-    if (is_one(name)) verdict.confused_with.push_back(name);
+  std::vector<std::string> nearest;
+  std::ranges::copy_if(verdict.effects, std::back_inserter(nearest), is_one);
   std::erase_if(verdict.effects, is_one);
+  verdict.confused_with.insert(verdict.confused_with.begin(), nearest.begin(), nearest.end());
   for (JudgedCause& cause : verdict.causes)
     if (is_one(cause.evidence.name)) cause.right = std::min(cause.right, 1 - kNamed);
-  verdict.status = verdict.effects.empty() ? "unknown" : "partly";
+  if (verdict.effects.empty())
+    verdict.status = "unknown";
+  else if (verdict.status == "identified")
+    verdict.status = "partly";
   return verdict;
 }
 
 Judged unnamed(Judged verdict) {
   const std::vector<std::string> all = verdict.effects;
-  std::ranges::reverse(verdict.confused_with);  // the nearest first
   return unnamed(std::move(verdict), all);
 }
 
