@@ -2,6 +2,8 @@
 #include "ident/gap/evidence/held_out_gap.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "ident/core/json_number.h"
 #include "ident/gap/hypotheses/cause_alone.h"
@@ -15,6 +17,46 @@ nlohmann::ordered_json as_json(const GapClosed& gap) {
           {"noise_floor", number_or_null(gap.floor)},
           {"closed", number_or_null(gap.closed)},
           {"closed_ci95", {number_or_null(gap.ci95[0]), number_or_null(gap.ci95[1])}}};
+}
+
+// Three channels of one quantity, and the unit in which a reader knows it.
+struct Quantity {
+  const char *name, *unit;
+  int first;
+  double per_SI;
+};
+constexpr std::array kQuantities = {
+    Quantity{"velocity", "m/s", kVelocity, 1.0}, Quantity{"position", "m", kPosition, 1.0},
+    Quantity{"rates", "rad/s", kGyro, 1.0}, Quantity{"attitude", "deg", kAttitude, 180 / M_PI}};
+
+// Root mean square, over windows and samples, of what those channels are missed by (or of its floor).
+double missed(const std::vector<PredictionWindow>& windows, const Quantity& q, const NoiseModel& noise,
+              std::array<double, kChannels> PredictionWindow::*of) {
+  double sum = 0, count = 0;
+  for (const PredictionWindow& w : windows)
+    for (int c = q.first; c < q.first + 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      sum += (w.*of)[channel] * std::pow(noise.sigma[channel], 2), count += w.count[channel];
+    }
+  return count > 0 ? q.per_SI * std::sqrt(3 * sum / count) : kNaN;  // of the vector
+}
+
+nlohmann::ordered_json open_loop(const HeldOutGap& all, const NoiseModel& noise) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (std::size_t h = 0; h < all.windows.horizons.size(); ++h) {
+    nlohmann::ordered_json one{{"horizon", all.windows.horizons[h]}};
+    for (const Quantity& q : kQuantities) {
+      const double before = missed(all.before[h], q, noise, &PredictionWindow::square);
+      if (!std::isfinite(before)) continue;
+      one[q.name] = {
+          {"unit", q.unit},
+          {"before", before},
+          {"after", number_or_null(missed(all.after[h], q, noise, &PredictionWindow::square))},
+          {"noise_floor", number_or_null(missed(all.after[h], q, noise, &PredictionWindow::floor))}};
+    }
+    out.push_back(one);
+  }
+  return out;
 }
 
 bool has_room(const HeldOutGap& all, double horizon) {
@@ -74,13 +116,14 @@ HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise) {
   return {all.record, all.stated, all.found, noise, all.before.back(), all.after.back()};
 }
 
-nlohmann::ordered_json as_json(const HeldOutGap& all) {
+nlohmann::ordered_json as_json(const HeldOutGap& all, const NoiseModel& noise) {
   nlohmann::ordered_json out = as_json(all.gap), horizons = nlohmann::ordered_json::array();
   for (std::size_t h = 0; h < all.horizons.size(); ++h) {
     horizons.push_back({{"horizon", all.windows.horizons[h]}});
     horizons.back().update(as_json(all.horizons[h]));
   }
   out["horizons"] = horizons;
+  out["open_loop"] = open_loop(all, noise);
   return out;
 }
 
