@@ -9,21 +9,20 @@ campaigns each is predicted by the fit to the others as well. The answers with t
 there whatever was found stands in for it.
 """
 import json
+import math
 import pathlib
 import sys
 
-import numpy as np
-
-# Quantity, and its transformation: as in probability_right().
+# Quantity, its transformation, and the mean of its coefficient's prior: as in probability_right().
 TERMS = [
-    ("base", lambda x: 1.0),
-    ("left", lambda x: x["left"] + 3),
-    ("varies", lambda x: x["varies"] + 1),
-    ("closes", lambda x: x["closes"] - 0.5),
-    ("told", lambda x: x["told"] - 3),
-    ("beside", lambda x: max(x["beside"] - 1, 0.0)),
+    ("base", lambda x: 1.0, 2.0),
+    ("left", lambda x: max(x["left"], 0.0), -1.0),
+    ("varies", lambda x: max(x["varies"], -1.0), -1.0),
+    ("closes", lambda x: x["closes"] - 0.5, 1.0),
+    ("minor", lambda x: max(x["minor"], -3.0), 0.0),
+    ("beside", lambda x: max(x["beside"] - 1, 0.0), -0.5),
 ]
-PRIOR_STD = 1.5  # of each coefficient about zero
+PRIOR_STD = 1.0  # of each coefficient
 
 
 def rows_of(campaign):
@@ -55,40 +54,66 @@ def flat(x):
     return [x] if isinstance(x, str) else [y for item in x for y in flat(item)]
 
 
+def solve(A, b):
+    """Gauss-Jordan with pivots; A is small and positive definite."""
+    n, M = len(b), [row[:] + [v] for row, v in zip(A, b)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda r: abs(M[r][i]))
+        M[i], M[pivot] = M[pivot], M[i]
+        M[i] = [v / M[i][i] for v in M[i]]
+        for r in range(n):
+            if r != i:
+                M[r] = [v - M[r][i] * w for v, w in zip(M[r], M[i])]
+    return [row[n] for row in M]
+
+
+def stated(x, b):
+    return 1 / (1 + math.exp(-sum(v * w for v, w in zip(x, b))))
+
+
 def fit(X, y):
-    b = np.zeros(X.shape[1])
+    n, prior = len(TERMS), [t[2] for t in TERMS]
+    b = prior[:]
     for _ in range(50):
-        p = 1 / (1 + np.exp(-X @ b))
-        H = X.T @ (X * (p * (1 - p))[:, None]) + np.eye(len(b)) / PRIOR_STD**2
-        b += np.linalg.solve(H, X.T @ (y - p) - b / PRIOR_STD**2)
+        H = [[(i == k) / PRIOR_STD**2 for k in range(n)] for i in range(n)]
+        g = [-(b[i] - prior[i]) / PRIOR_STD**2 for i in range(n)]
+        for x, label in zip(X, y):
+            p = stated(x, b)
+            for i in range(n):
+                g[i] += x[i] * (label - p)
+                for k in range(n):
+                    H[i][k] += x[i] * x[k] * p * (1 - p)
+        b = [v + d for v, d in zip(b, solve(H, g))]
     return b
 
 
 def main():
     data = {c: list(rows_of(c)) for c in sys.argv[1:]}
-    design = {c: np.array([[f(r[0]) for _, f in TERMS] for r in rows]).reshape(-1, len(TERMS)) for c, rows in data.items()}
-    label = {c: np.array([float(r[1]) for r in rows]) for c, rows in data.items()}
-    X, y = np.vstack(list(design.values())), np.concatenate(list(label.values()))
+    design = {c: [[f(r[0]) for _, f, _ in TERMS] for r in rows] for c, rows in data.items()}
+    label = {c: [float(r[1]) for r in rows] for c, rows in data.items()}
+    X = [x for rows in design.values() for x in rows]
+    y = [v for rows in label.values() for v in rows]
     b = fit(X, y)
-    print(f"{len(y)} causes found, {int(y.sum())} right")
-    for (name, _), value in zip(TERMS, b):
+    print(f"{len(y)} causes found, {int(sum(y))} right")
+    for (name, _, _), value in zip(TERMS, b):
         print(f"{name:8s} {value:+.2f}")
-    p = 1 / (1 + np.exp(-X @ b))
-    for low in np.arange(0, 1, 0.2):
-        at = (p >= low) & (p < low + 0.2 + 1e-9)
-        if at.any():
-            print(f"stated {low:.1f} to {low + 0.2:.1f}: {at.sum():4d} causes, right {y[at].mean():.2f}")
-    for c in data:
-        if len(data) > 1 and len(label[c]):
-            others = [k for k in data if k != c]
-            other = fit(np.vstack([design[k] for k in others]), np.concatenate([label[k] for k in others]))
-            q = 1 / (1 + np.exp(-design[c] @ other))
-            print(f"{c}, by the others: named {int((q > 0.8).sum())}, of these right {int(label[c][q > 0.8].sum())}; "
-                  f"right and not named {int(label[c][q <= 0.8].sum())}")
+    p = [stated(x, b) for x in X]
+    for low in (0.0, 0.2, 0.4, 0.6, 0.8):
+        at = [v for v, q in zip(y, p) if low <= q < low + 0.2 + 1e-9]
+        if at:
+            print(f"stated {low:.1f} to {low + 0.2:.1f}: {len(at):4d} causes, right {sum(at) / len(at):.2f}")
+    for c in data if len(data) > 1 else []:
+        others = [k for k in data if k != c]
+        other = fit([x for k in others for x in design[k]], [v for k in others for v in label[k]])
+        q = [stated(x, other) for x in design[c]]
+        named = [v for v, w in zip(label[c], q) if w > 0.8]
+        missed = [v for v, w in zip(label[c], q) if w <= 0.8]
+        print(f"{c}, by the others: named {len(named)}, of these right {int(sum(named))}; "
+              f"right and not named {int(sum(missed))}")
     rows = [r for rows in data.values() for r in rows]
-    for r, q in sorted(zip(rows, p), key=lambda t: abs(t[1] - t[0][1]), reverse=True)[:15]:
+    for r, q in sorted(zip(rows, p), key=lambda t: -abs(t[1] - t[0][1]))[:15]:
         print(f"  {r[4]} {r[2]:16s} {r[3]:22s} right {int(r[1])} stated {q:.2f} size {r[5]:.1f} "
-              + " ".join(f"{k}={r[0][k]:.2f}" for k in ("left", "varies", "closes", "told", "beside")))
+              + " ".join(f"{k}={r[0][k]:.2f}" for k in ("left", "varies", "closes", "told", "minor", "beside")))
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/json_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/cause_traits.h"
@@ -39,6 +40,7 @@
 #include "ident/gap/verdict/open_commands.h"
 #include "ident/gap/verdict/out_of_balance.h"
 #include "ident/gap/verdict/seldom_input.h"
+#include "ident/gap/verdict/unnamed_values.h"
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/search_details.h"
@@ -106,19 +108,6 @@ void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehic
                           format_number(highest, 4)));
 }
 
-// Values that only a cause would have are not known where it is not named.
-void doubt_unnamed(std::vector<Parameter>& parameters, const std::vector<Candidate>& causes,
-                   const std::vector<std::string>& named) {
-  for (Parameter& p : parameters)
-    for (const Candidate& c : causes) {
-      const bool own = c.name == "parameter:" + p.name || p.name.substr(0, p.name.find('.')) == c.name;
-      const bool brought = std::ranges::any_of(named, [&](const auto& n) { return implies(n, c.name); });
-      if (!own || brought || std::ranges::find(named, c.name) != named.end()) continue;
-      p.doubt({});
-      p.note = "of a cause that is not named";
-    }
-}
-
 // What a search leaves to be judged; `before` and `after` are of the base model and of the one found.
 struct Findings {
   ResidualWrench before, after;
@@ -127,6 +116,7 @@ struct Findings {
   GapShares shares;
   std::vector<SpectralLine> lines;
   std::vector<Burst> jumps;
+  std::vector<Unsteady> unsteady;
 };
 
 Findings findings_of(const FlightRecord& record, const SearchResult& search) {
@@ -137,13 +127,15 @@ Findings findings_of(const FlightRecord& record, const SearchResult& search) {
   ResidualWrench after = search.best.adopted.empty() ? before : wrench(search.best);
   HeldOutGap held_out = held_out_gap(record, search);
   GapShares shares = gap_shares(held_out, search);
+  std::vector<Unsteady> unsteadiness = unsteady(after);
   return {std::move(before),
           std::move(after),
           generic_rival(record, *search.best.theta, search.best.fit, search.form.noise),
           std::move(held_out),
           std::move(shares),
           spectral_lines(record, search.best.fit),
-          bursts(record, search.best.fit)};
+          bursts(record, search.best.fit),
+          std::move(unsteadiness)};
 }
 
 // The constants of the model found. What hover held is known no better than before.
@@ -203,7 +195,8 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   const GapClosed& gap = seen.held_out.judged;
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   state_constants(result, search, vehicle, p, hover);
-  Judged verdict = judge({search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, result.parameters});
+  Judged verdict =
+      judge({search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, seen.unsteady, result.parameters});
   doubt_negative_dead_time(result);
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
@@ -237,6 +230,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   result.extra["candidates"] = std::move(tried);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
   result.extra["gap"] = as_json(seen.held_out, search.form.noise);
+  result.extra["gap"]["without_causes"] = number_or_null(seen.shares.without_causes);
   result.extra.update(search_details({search, seen.before, seen.rival, seen.lines, vibration, seen.jumps}));
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =

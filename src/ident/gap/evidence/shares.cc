@@ -90,11 +90,7 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
   const GapClosed& judged = all.judged;
   std::vector<Player> players = players_of(search);
   if (players.empty())
-    return {judged.before,
-            judged.after,
-            judged.floor,
-            {},
-            {1 - judged.closed, {1 - judged.ci95[1], 1 - judged.ci95[0]}}};
+    return {judged.after, {}, {1 - judged.closed, {1 - judged.ci95[1], 1 - judged.ci95[0]}}};
   while (players.size() > kMostPlayers) {
     Player& last = players[kMostPlayers - 1];
     last.name += " and " + players.back().name;
@@ -103,7 +99,7 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
   }
   PredictionOptions windows = without_floors(all.windows);
   const std::size_t at = all.judged_at;
-  const std::vector<PredictionWindow>&before = all.before[at], &after = all.after[at];
+  const std::vector<PredictionWindow>& after = all.after[at];
   windows.horizons = {all.windows.horizons[at]};
   const unsigned sets = 1U << players.size();
   std::map<std::pair<int, int>, Block> blocks;
@@ -115,10 +111,8 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
       if (first) block.floor += w.floor2(), block.windows += 1;
     }
   };
-  const std::vector<PredictionWindow> alike = same_windows(before, after);
-  enter(0, alike, false);
   enter(sets - 1, after, true);
-  for (unsigned set = 1; set + 1 < sets; ++set) {
+  for (unsigned set = 0; set + 1 < sets; ++set) {
     std::vector<Candidate> with;
     for (std::size_t c = 0; c < players.size(); ++c)
       if (set >> c & 1U) std::ranges::copy(players[c].causes, std::back_inserter(with));
@@ -127,11 +121,12 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
                           search.form.noise, windows)[0],
           false);
   }
-  GapShares out{judged.before, judged.after, judged.floor, {}, {}};
+  GapShares out;
   Sums sums{std::vector<double>(sets), 0, 0};
   std::vector<Block> listed;
   for (auto& [place, block] : blocks) add(sums, block), listed.push_back(std::move(block));
   if (!(sums.windows > 0)) return out;
+  out.without_causes = std::sqrt(sums.errors[0] / sums.windows);
   const std::vector<double> shares = shares_of(sums);
   std::vector<std::vector<double>> draws(players.size() + 1);
   std::mt19937_64 random(22);

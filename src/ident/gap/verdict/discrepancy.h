@@ -8,6 +8,7 @@
 #include "ident/gap/statistics/bursts.h"
 #include "ident/gap/statistics/generic_rival.h"
 #include "ident/gap/statistics/spectral_line.h"
+#include "ident/gap/statistics/steadiness.h"
 
 namespace ident {
 
@@ -17,7 +18,10 @@ struct Rest {
   const Rival& rival;
   const std::vector<SpectralLine>& lines;
   const std::vector<Burst>& jumps;
-  double explained = 0;  ///< fall of the cost by the causes found, each beside the others
+  const std::vector<Unsteady>& unsteady;
+  /// What the causes found gain, each beside the others, and what their forms leave of that to a regression.
+  double explained = 0, by_form = 0;
+  bool of_drive = false;  ///< a cause of the drive or of the motors is among them
 };
 
 /// One thing that gusts do not do.
@@ -30,13 +34,11 @@ struct Discrepancy {
   double probability = 0;   ///< of something else
   double predictable = 0;   ///< share of what speaks for a lack in the model that no cause took up, 0 to 1
   std::vector<Sign> signs;  ///< those that make it probable, the strongest first
-  bool stands_out = false;  ///< a line or jumps: it shows whatever its share
 
   /// "a line at 12.1 Hz in Mx; jumps in Fz, most at 31 s of log 1"; empty where there is no sign.
   std::string said() const;
 };
 
-/// `beside_causes`: gusts may follow the model's errors where causes were found, so the floor tells nothing.
 Discrepancy discrepancy(const Rest& rest);
 
 }  // namespace ident

@@ -64,10 +64,6 @@ std::vector<std::string> in_their_place(const std::vector<std::string>& named, c
   for (const std::string& name : named) {
     const std::string alias(traits_of(name).alias_of);
     if (is_weightless(name, fitted) && probability_of_sets(search, alias, name) > kPart) add(out, alias);
-    // The other way round: only its price tells a light one from what it is taken for.
-    for (const Candidate& c : search.problem.candidates)
-      if (traits_of(c.name).alias_of == name && probability_of_sets(search, c.name, name) > kTold)
-        add(out, c.name);
   }
   return out;
 }

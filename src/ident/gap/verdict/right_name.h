@@ -14,10 +14,12 @@ namespace ident {
 /// The quantities of equation (8), for one name.
 struct NameEvidence {
   std::string name;
-  double left = 0;    ///< log10 of the regression's gain beyond chance over what the causes explain; -5 to 1
-  double varies = 0;  ///< log10 of the share of itself by which its size differs beyond chance; -3 to 1
+  double left = 0;    ///< log10 of the regression's gain over chance and what forms leave to it; -2 to 2
+  double varies = 0;  ///< log10 of how far its size differs beyond chance, over what its form allows; -2 to 1
   double closes = 0;  ///< lower end of what all causes close of the held-out gap, 0 to 1
   double told = 0;    ///< log10 of its fall of the cost
+  double minor = 0;   ///< log10 of that over the fall by the strongest cause found; 0 or less
+  double share = 0;   ///< upper end of its own share of the gap, 0 to 1; 1 where there is none
   double beside = 0;  ///< causes of the vehicle found beside it
   double beyond = 0;  ///< logarithm of its size over the limit of physics, 0 within
   bool told_from_none = true;
@@ -31,6 +33,9 @@ struct NamesSeen {
   const Rival& rival;
   const std::vector<Parameter>& fitted;
 };
+
+/// What the forms of the causes found leave to a regression, as a fall of the cost.
+double left_by_form(const SearchResult& search);
 
 NameEvidence evidence_of(const std::string& name, const NamesSeen& seen);
 

@@ -65,19 +65,16 @@ Share left_by(const std::vector<std::string>& named, const GapShares& shares) {
   return out;
 }
 
-// Whether what is left is worth a word: it stands out by itself, or is a share of the gap that is told from
-// none, or one of what speaks for a lack in the model.
-bool is_material(const Judged& verdict) {
-  const bool share = verdict.remaining.value > kMaterial && verdict.remaining.ci95[0] > 0;
-  return verdict.rest.stands_out || share || verdict.rest.predictable > kMaterial;
-}
-
 }  // namespace
 
 Judged judge(const Seen& seen) {
   Judged out;
   out.causes = causes_of(seen);
-  out.rest = discrepancy({seen.gap, seen.rival, seen.lines, seen.jumps, seen.search.explained()});
+  const bool of_drive = std::ranges::any_of(seen.search.best.adopted, [](const Candidate& c) {
+    return traits_of(c.name).of_drive || traits_of(c.name).of_motors;
+  });
+  out.rest = discrepancy({seen.gap, seen.rival, seen.lines, seen.jumps, seen.unsteady,
+                          seen.search.explained(), left_by_form(seen.search), of_drive});
   for (const JudgedCause& cause : out.causes)
     if (cause.right >= kNamed && cause.in_sets >= kTold) out.effects.push_back(cause.evidence.name);
   // In the place of those named: sets with others, about as probable.
@@ -96,7 +93,7 @@ Judged judge(const Seen& seen) {
     out.status = "ambiguous";
   } else {
     const bool others = out.effects.size() < out.causes.size();
-    out.status = (something_else && is_material(out)) || others ? "partly" : "identified";
+    out.status = something_else || others ? "partly" : "identified";
   }
   out.sentence = sentence_of(out, seen);
   return out;

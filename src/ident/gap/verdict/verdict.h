@@ -36,6 +36,7 @@ struct Seen {
   const Rival& rival;
   const std::vector<SpectralLine>& lines;
   const std::vector<Burst>& jumps;
+  const std::vector<Unsteady>& unsteady;
   const std::vector<Parameter>& fitted;
 };
 

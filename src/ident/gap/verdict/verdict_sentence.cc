@@ -14,8 +14,9 @@ namespace ident {
 namespace {
 
 std::string percent(const Share& share) {
-  return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", 100 * share.value, 100 * share.ci95[0],
-                     100 * share.ci95[1]);
+  const auto in_100 = [](double x) { return std::round(100 * x) + 0.0; };  // no -0
+  return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", in_100(share.value), in_100(share.ci95[0]),
+                     in_100(share.ci95[1]));
 }
 
 // "battery_sag (77 % [70, 84] of the gap) and rotor_drag".
@@ -89,9 +90,9 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
     else
       out = fmt::format("The gap is explained by {}, but {} would explain it about as well.", causes,
                         fmt::join(verdict.confused_with, " or "));
-    if (verdict.status != "identified" && std::isfinite(verdict.remaining.value) &&
-        verdict.remaining.value > kMaterial)
-      out += fmt::format(" {} of the gap remains.", percent(verdict.remaining));
+    if (verdict.remaining.value > kMaterial)
+      out += fmt::format(" {} of the gap remains{}.", percent(verdict.remaining),
+                         verdict.status == "identified" ? ", which is not told from gusts and noise" : "");
     std::vector<std::string> like;
     for (const JudgedCause& cause : verdict.causes)
       if (std::ranges::find(verdict.effects, cause.evidence.name) == verdict.effects.end())

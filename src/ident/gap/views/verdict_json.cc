@@ -47,6 +47,8 @@ Json why(const JudgedCause& cause) {
           {"varies", x.varies},
           {"closes", x.closes},
           {"told", x.told},
+          {"minor", x.minor},
+          {"share", x.share},
           {"beside", x.beside},
           {"beyond", x.beyond},
           {"told_from_none", x.told_from_none},
