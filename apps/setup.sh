@@ -6,7 +6,7 @@ build_packages=(build-essential cmake ninja-build libeigen3-dev libceres-dev lib
                 libyaml-cpp-dev libcli11-dev libfccp-dev libsqlite3-dev liblz4-dev libzstd-dev libpugixml-dev
                 libtomlplusplus-dev)
 test_packages=(libgtest-dev chromium poppler-utils jupyter-nbconvert python3-ipykernel python3-matplotlib
-               libmujoco-dev libsdformat-dev liburdfdom-dev)
+               libmujoco-dev libqhull-dev libsdformat-dev liburdfdom-dev)
 
 setup_packages() {
   local package missing=() as_root=()

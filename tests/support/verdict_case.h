@@ -16,7 +16,9 @@ struct VerdictCase {
   Rival rival;
   std::vector<SpectralLine> lines;
   std::vector<Burst> jumps;
+  std::vector<Unsteady> unsteady;
   std::vector<Parameter> fitted;
+  GapShares shares;
 
   VerdictCase(const std::vector<std::string>& candidates, const std::vector<std::string>& found) {
     for (const std::string& name : candidates) search.problem.candidates.push_back({name});
@@ -29,6 +31,12 @@ struct VerdictCase {
   /// So much of what was ten times the floor.
   void closes(std::array<double, 2> ci95, double closed) {
     gap = {closed, ci95, 10.0, std::sqrt(1.0 + (1 - closed) * 99.0), 1.0};
+    shares = {10.0, {}, {1 - closed, {1 - ci95[1], 1 - ci95[0]}}};
+    const std::vector<std::string> names = names_of(search.best.adopted);
+    for (const std::string& name : names) {
+      const double part = 1.0 / static_cast<double>(names.size());
+      shares.causes.push_back({name, {part * closed, {part * ci95[0], part * ci95[1]}}});
+    }
   }
   void weighs(const std::vector<int>& members, double probability) {
     search.sets.push_back({members, 0.0, probability});
@@ -40,7 +48,7 @@ struct VerdictCase {
     kT.pull = deviations, kT.from_flight = 0.9;
     fitted = {kT};
   }
-  Judged judged() const { return judge(search, gap, rival, lines, jumps, fitted); }
+  Judged judged() const { return judge({search, gap, shares, rival, lines, jumps, unsteady, fitted}); }
 };
 
 }  // namespace ident

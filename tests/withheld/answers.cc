@@ -93,7 +93,7 @@ Answer read_answer(const fs::path& stem) {
   answer.status = verdict.value("status", "");
   if (verdict.contains("effects")) collect(verdict["effects"], answer.effects);
   if (verdict.contains("confused_with")) collect(verdict["confused_with"], answer.confused_with);
-  answer.given = Names{"none", "identified", "ambiguous", "unknown"}.count(answer.status) > 0;
+  answer.given = Names{"none", "identified", "partly", "ambiguous", "unknown"}.count(answer.status) > 0;
   if (from.contains("candidates")) {
     for (const json& item : from["candidates"]) answer.candidates[item.value("effect", "")] = candidate(item);
   }

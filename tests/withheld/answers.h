@@ -42,6 +42,8 @@ struct Candidate {
 struct Answer {
   bool given = false;  // a readable verdict, exit status 0
   std::string status;
+  // Causes are named, whatever else is said to be left.
+  bool names_causes() const { return status == "identified" || status == "partly"; }
   Names effects, confused_with;
   std::map<std::string, Candidate> candidates;
   std::optional<double> closed;

@@ -25,6 +25,7 @@ std::string said(const Answer& answer) {
   if (!answer.given) return "no answer";
   if (answer.status == "none" || answer.status == "unknown") return answer.status;
   if (answer.status == "identified") return joined(answer.effects);
+  if (answer.status == "partly") return joined(answer.effects) + " and more";
   Names all = answer.effects;
   all.insert(answer.confused_with.begin(), answer.confused_with.end());
   return "ambiguous";

@@ -50,7 +50,7 @@ Outcome outcome_without_truth(const Answer& answer) {
   if (!answer.given) return Outcome::failed;
   if (answer.status == "none") return Outcome::none;
   if (answer.status == "unknown") return Outcome::unknown;
-  return answer.status == "identified" ? Outcome::wrong : Outcome::wide;
+  return answer.names_causes() ? Outcome::wrong : Outcome::wide;
 }
 
 Outcome outcome_of(const Truth& truth, const Answer& answer) {
@@ -128,7 +128,7 @@ Share recovery(const std::vector<Scored>& cases, const std::string& form) {
   for (const Scored& c : cases) {
     for (const TrueEffect& effect : c.truth.effects) {
       const auto found = c.answer.candidates.find(effect.name);
-      const bool named = c.answer.status == "identified" && c.answer.effects.count(effect.name) > 0;
+      const bool named = c.answer.names_causes() && c.answer.effects.count(effect.name) > 0;
       if (!named || effect.form != form || found == c.answer.candidates.end()) continue;
       for (const auto& [name, value] : effect.parameters) {
         const auto estimate = found->second.parameters.find(name);

@@ -11,8 +11,10 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/json_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/effects/all_parameters.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/flight/checks/command_rate.h"
 #include "ident/flight/checks/implausible_estimates.h"
 #include "ident/flight/checks/intersample_commands.h"
@@ -31,6 +33,7 @@
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/evidence.h"
 #include "ident/gap/evidence/held_out_gap.h"
+#include "ident/gap/evidence/shares.h"
 #include "ident/gap/search/model_search.h"
 #include "ident/gap/statistics/generic_rival.h"
 #include "ident/gap/statistics/residual_wrench.h"
@@ -38,13 +41,14 @@
 #include "ident/gap/verdict/open_commands.h"
 #include "ident/gap/verdict/out_of_balance.h"
 #include "ident/gap/verdict/seldom_input.h"
-#include "ident/gap/verdict/trust.h"
+#include "ident/gap/verdict/unnamed_values.h"
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/gap_where.h"
 #include "ident/gap/views/search_details.h"
 #include "ident/gap/views/signature_plot.h"
 #include "ident/views/data_health.h"
+#include "ident/gap/views/verdict_json.h"
 
 namespace ident {
 namespace {
@@ -66,10 +70,9 @@ Judged in_hover(Judged verdict) {
   if (verdict.status == "none") return verdict;
   if (!verdict.effects.empty()) {
     verdict.sentence = fmt::format("The nearest is {}.", fmt::join(verdict.effects, " with "));
-    verdict.confused_with = std::exchange(verdict.effects, {});
+    verdict = unnamed(std::move(verdict));
   }
   verdict.status = "unknown";
-  verdict.refused = true;
   verdict.sentence +=
       " These logs hold little more than hover, and that tells no cause: none was tried in full. Fly "
       "doublets or a multisine about every axis.";
@@ -98,7 +101,7 @@ struct Looked : Diagnosis {
 void warn_of_battery(Result& result, const Judged& verdict, const Vehicle& vehicle,
                      std::span<const FlightLog> logs) {
   const auto tells = [](const std::vector<std::string>& names) {
-    return std::ranges::find(names, "battery_sag") != names.end();
+    return std::ranges::any_of(names, [](const std::string& n) { return traits_of(n).of_battery; });
   };
   const double highest = highest_voltage(logs);
   if (vehicle.battery_voltage || !(highest > 0) || !(tells(verdict.effects) || tells(verdict.confused_with)))
@@ -114,8 +117,10 @@ struct Findings {
   ResidualWrench before, after;
   Rival rival;
   HeldOutGap held_out;
+  GapShares shares;
   std::vector<SpectralLine> lines;
   std::vector<Burst> jumps;
+  std::vector<Unsteady> unsteady;
 };
 
 Findings findings_of(const FlightRecord& record, const SearchResult& search) {
@@ -124,12 +129,17 @@ Findings findings_of(const FlightRecord& record, const SearchResult& search) {
   };
   ResidualWrench before = wrench(search.base);
   ResidualWrench after = search.best.adopted.empty() ? before : wrench(search.best);
+  HeldOutGap held_out = held_out_gap(record, search);
+  GapShares shares = gap_shares(held_out, search);
+  std::vector<Unsteady> unsteadiness = unsteady(after);
   return {std::move(before),
           std::move(after),
           generic_rival(record, *search.best.theta, search.best.fit, search.form.noise),
-          held_out_gap(record, search),
+          std::move(held_out),
+          std::move(shares),
           spectral_lines(record, search.best.fit),
-          bursts(record, search.best.fit)};
+          bursts(record, search.best.fit),
+          std::move(unsteadiness)};
 }
 
 // The constants of the model found. What hover held is known no better than before.
@@ -189,7 +199,8 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   const GapClosed& gap = seen.held_out.judged;
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   state_constants(result, search, vehicle, p, hover);
-  Judged verdict = judge(search, gap, seen.rival, seen.lines, seen.jumps, result.parameters);
+  Judged verdict =
+      judge({search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, seen.unsteady, result.parameters});
   doubt_negative_dead_time(result);
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
@@ -210,20 +221,20 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
     verdict = with_open_commands(std::move(verdict), input_interval(record, logs));
   else if (doubtful)
     out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
-  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong, .refused = true};
+  if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   warn_of_battery(result, verdict, vehicle, logs);
 
   result.verdict = verdict.sentence;
-  result.extra["verdict"] = to_json(verdict);
+  result.extra["verdict"] = to_json(verdict, seen.after);
   result.extra["where"] = where_json(seen.before);
   Json tried = causes_tried(
       search, [&](const Candidate& cause) { return closed_alone(seen.held_out, search, cause); });
-  if (verdict.refused) doubt_refused(result.parameters, search.best.adopted);
-  if (verdict.refused) trust_less(tried, verdict.effects);
-  if (verdict.plain) trust_more(tried, verdict.effects);
+  enter_causes(tried, verdict);
+  doubt_unnamed(result.parameters, search.best.adopted, verdict.effects);
   result.extra["candidates"] = std::move(tried);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
-  result.extra["gap"] = as_json(seen.held_out);
+  result.extra["gap"] = as_json(seen.held_out, search.form.noise);
+  result.extra["gap"]["without_causes"] = number_or_null(seen.shares.without_causes);
   result.extra.update(search_details({search, seen.before, seen.rival, seen.lines, vibration, seen.jumps}));
   if (!wrong.empty()) distrust(result, wrong);
   const GapEvidence evidence =
@@ -264,7 +275,6 @@ Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, 
       result.verdict = wrong;
       distrust(result, wrong);
     }
-    if (result.extra["verdict"]["status"] == "unknown") trust_less(result.extra["candidates"], {});
     result.sections.push_back(data_health(record, logs, initial_noise(record), vibration));
     return out;
   }

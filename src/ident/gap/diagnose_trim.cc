@@ -19,6 +19,7 @@
 #include "ident/gap/verdict/verdict.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/gap_where.h"
+#include "ident/gap/views/verdict_json.h"
 
 namespace ident {
 namespace {
@@ -165,24 +166,20 @@ Judged judged(const SearchResult& search, double chance, const std::string& limi
   const std::string found = described(search.best.adopted.front());
   if (chance < kChance || others.size() >= kMostNames) {
     others.insert(others.begin(), name);
-    return {"unknown",
-            fmt::format("The rotors do not balance as the model says, and their balance does not tell why: "
-                        "nearest {} {}, but that is not all. {}",
-                        others.size() == 1 ? "is" : "are", fmt::join(others, ", "), limit),
-            {},
-            others};
+    out.status = "unknown", out.confused_with = others;
+    out.sentence = fmt::format(
+        "The rotors do not balance as the model says, and their balance does not tell why: "
+        "nearest {} {}, but that is not all. {}",
+        others.size() == 1 ? "is" : "are", fmt::join(others, ", "), limit);
+    return out;
   }
-  if (others.empty())
-    return {"identified",
-            fmt::format("The balance of the rotors differs from the model by {}.", found),
-            {name},
-            {}};
-  return {"ambiguous",
-          fmt::format("The balance of the rotors differs from the model by {}, but {} would explain it about "
-                      "as well.",
-                      found, fmt::join(others, " or ")),
-          {name},
-          others};
+  out.effects = {name}, out.confused_with = others;
+  out.status = others.empty() ? "identified" : "ambiguous";
+  out.sentence = fmt::format("The balance of the rotors differs from the model by {}", found);
+  out.sentence += others.empty()
+                      ? "."
+                      : fmt::format(", but {} would explain it about as well.", fmt::join(others, " or "));
+  return out;
 }
 
 // What is left as force and moment, a row for each stretch.
@@ -251,7 +248,7 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
         "how equal the rotors of this vehicle are when nothing is wrong is not stated: 10 % is assumed. "
         "Refine with flights of the vehicle as it should be, and diagnose against that");
   result.parameters = flight_parameters(*search.best.theta, search.best.fit, "gap");
-  result.extra["verdict"] = to_json(verdict);
+  result.extra["verdict"] = to_json(verdict, after);
   result.extra["where"] = where_json(before);
   result.extra["candidates"] = candidates;
   result.extra["not_tried"] = causes_not_tried(search, vehicle, exclude);

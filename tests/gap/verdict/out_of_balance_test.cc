@@ -28,14 +28,15 @@ TEST(WithVibration, NothingStandsOutNothingChanges) {
 TEST(WithVibration, AnUnbalancedPropellerIsUnknownAndSaysWhich) {
   const Judged none = with_vibration({.status = "none", .sentence = "No cause stands out."}, one_of_four());
   EXPECT_EQ(none.status, "unknown");
-  EXPECT_FALSE(none.refused);
   EXPECT_NE(none.sentence.find("rotor 3"), std::string::npos) << none.sentence;
   EXPECT_EQ(none.sentence.find("No cause stands out"), std::string::npos) << none.sentence;
   const Judged named = with_vibration({.status = "identified", .effects = {"rotor_tilt"}}, one_of_four());
   EXPECT_EQ(named.status, "unknown");
-  EXPECT_TRUE(named.refused);
   EXPECT_TRUE(named.effects.empty());
   EXPECT_EQ(named.confused_with, std::vector<std::string>{"rotor_tilt"});
+  const Judged drag = with_vibration({.status = "identified", .effects = {"rotor_drag"}}, one_of_four());
+  EXPECT_EQ(drag.status, "partly") << "a propeller that shakes does not drag";
+  EXPECT_EQ(drag.effects, std::vector<std::string>{"rotor_drag"});
   const Judged other = with_vibration({.status = "unknown", .sentence = "Something swings."}, one_of_four());
   EXPECT_NE(other.sentence.find("Something swings."), std::string::npos);
   EXPECT_NE(other.sentence.find("rotor 3"), std::string::npos);

@@ -9,6 +9,9 @@
 
 namespace ident {
 
+/// Horizon (s) over which a gap is judged; the shortest where a flight in pieces has no room for it.
+inline constexpr double kJudgedHorizon = 0.5;
+
 /// Both models fitted to the first 70 % of each log, judged on the rest under the final noise.
 struct HeldOutGap {
   FlightRecord record;            ///< the rest
@@ -16,8 +19,9 @@ struct HeldOutGap {
   PredictionOptions windows;      ///< over which both predict
   std::vector<std::vector<PredictionWindow>> before, after;  ///< a list for each horizon
   std::vector<GapClosed> horizons;
-  GapClosed gap;     ///< over 0.5 s
-  GapClosed judged;  ///< the same; over a shorter time where a flight in pieces has none as long
+  GapClosed gap;              ///< over 0.5 s
+  GapClosed judged;           ///< the same; over a shorter time where a flight in pieces has none as long
+  std::size_t judged_at = 1;  ///< place of that horizon
 };
 HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search);
 
@@ -30,7 +34,7 @@ PredictionOptions without_floors(PredictionOptions windows);
 /// For pictures and signatures.
 HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise);
 
-/// As `gap` of a result, with its `horizons`.
-nlohmann::ordered_json as_json(const HeldOutGap& all);
+/// As `gap` of a result, with its `horizons`; `open_loop` has the same in the units of what is predicted.
+nlohmann::ordered_json as_json(const HeldOutGap& all, const NoiseModel& noise);
 
 }  // namespace ident

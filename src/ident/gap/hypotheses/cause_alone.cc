@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/effects/cause_traits.h"
 #include "ident/gap/hypotheses/candidates.h"
 #include "ident/gap/hypotheses/next_model.h"
 
 namespace ident {
 
-Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, const Candidate& cause) {
+Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u,
+                          const std::vector<Candidate>& causes) {
   constexpr double kNothing = -30.0;  // of the logarithm of what is positive
   Eigen::VectorXd out = u;
   const std::vector<FreeConstant>& constants = model.theta->constants();
+  const bool moves_air =
+      std::ranges::any_of(causes, [](const Candidate& c) { return traits_of(c.name).by_the_air; });
   for (const Candidate& other : model.adopted) {
-    const bool carries = other.name == "rotor_drag" || other.name == "parasitic_drag";
-    if (same(other, cause) || (carries && cause.name == "wind")) continue;
+    const bool kept = std::ranges::any_of(causes, [&](const Candidate& c) { return same(other, c); });
+    if (kept || (moves_air && traits_of(other.name).carries_air)) continue;
     for (std::size_t i = 0; i < constants.size(); ++i) {
       const FreeConstant& c = constants[i];
       if (!is_constant_of(other, c, static_cast<int>(i))) continue;

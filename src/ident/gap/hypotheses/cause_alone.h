@@ -1,4 +1,4 @@
-// A found model with one of its causes only, to tell how far that cause closes the gap.
+// A found model with some of its causes only, to tell how far these close the gap.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,10 @@
 
 namespace ident {
 
-/// The constants `u` of a model with one of its causes only, all else as it is; wind with the drag through
+/// The constants `u` of a model with these of its causes only, all else as it is; wind with the drag through
 /// which it acts.
-Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u, const Candidate& cause);
+Eigen::VectorXd with_only(const FittedModel& model, const Eigen::VectorXd& u,
+                          const std::vector<Candidate>& causes);
 
 /// Those of `all` that begin where one of `some` does, both in order.
 std::vector<PredictionWindow> same_windows(const std::vector<PredictionWindow>& all,

@@ -8,6 +8,7 @@
 #include "ident/effects/catalogue.h"
 #include "ident/flight/fit/fitted_parameters.h"
 #include "ident/flight/fit/physical_inertia.h"
+#include "ident/gap/hypotheses/screen.h"
 
 namespace ident {
 namespace {
@@ -23,7 +24,7 @@ bool beyond_physics(const FittedModel& model) {
     if (!c.adopted || !effect || c.name.starts_with("payload.")) continue;
     const int k = static_cast<int>(i);
     const double beyond =
-        std::abs(model.theta->physical(model.fit.u, k) - effect->null_value) - physical_limit(c);
+        std::abs(model.theta->physical(model.fit.u, k) - effect->null_value) - kFarther * physical_limit(c);
     if (beyond > kByChance * model.theta->deviation(model.fit.u, k, model.fit.covariance)) return true;
   }
   return false;

@@ -11,8 +11,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What the quadratic form says of a size is that far off at most.
-constexpr double kFarther = 3.0;
 // The price of a direction is half the log of the odds between the sizes that it might have had, some times
 // its typical one, and those that the data leave; at most that of an effective sample.
 constexpr double kPricePerDirection = 2.5;

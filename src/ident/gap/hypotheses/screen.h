@@ -5,6 +5,10 @@
 
 namespace ident {
 
+/// Times its physical limit, a size ends the trial of a cause. Limits are round numbers for a usual vehicle,
+/// and the quadratic form is off by as much; up to here a verdict counts the size against the cause.
+inline constexpr double kFarther = 3.0;
+
 /// What a set of causes gains over a model with the base constants alone.
 struct SetGain {
   std::vector<int> members;  ///< candidates

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ident/effects/cause_traits.h"
+
 namespace ident {
 namespace {
 
@@ -61,21 +63,20 @@ std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& v
 }
 
 bool moves_mass(const Candidate& cause) {
-  return cause.name == "cg_offset" || cause.name == "products_of_inertia" || cause.name == "parameter:m" ||
-         cause.name == "parameter:Jxx" || cause.name == "parameter:Jyy" || cause.name == "parameter:Jzz";
+  const CauseTraits& traits = traits_of(cause.name);
+  return traits.moves_mass && !traits.bolted_on;
 }
 
-bool is_of_mounting(const std::string& cause) {
-  return cause == "imu_bias" || cause == "imu_lever_arm" || cause == "imu_misalignment";
-}
+bool is_of_mounting(const std::string& cause) { return traits_of(cause).of_mounting; }
 
-bool is_lag(const std::string& cause) { return cause == "parameter:omega_m" || cause == "parameter:zeta_m"; }
+bool is_lag(const std::string& cause) { return traits_of(cause).of_lag; }
 
 std::optional<InFull> payload_instead(const FlightRecord& record, const Vehicle& vehicle,
                                       const std::vector<std::string>& exclude, const Standing& from,
                                       const std::vector<Candidate>& instead_of,
                                       const FlightFitOptions& options) {
-  const auto payload = std::ranges::find(from.problem.candidates, "payload", &Candidate::name);
+  const auto payload = std::ranges::find_if(from.problem.candidates,
+                                            [](const Candidate& c) { return traits_of(c.name).bolted_on; });
   if (payload == from.problem.candidates.end()) return {};
   const int place = static_cast<int>(payload - from.problem.candidates.begin());
   if (std::ranges::find(from.have, place) != from.have.end()) return {};

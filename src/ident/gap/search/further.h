@@ -37,7 +37,7 @@ std::optional<InFull> tried_in_full(const FlightRecord& record, const Vehicle& v
                                     const std::vector<std::string>& exclude, const Standing& at_now,
                                     int chosen, const FlightFitOptions& options);
 
-/// A cause that moves masses about, as something bolted on would.
+/// A cause that moves masses about as something bolted on would, and is not that itself.
 bool moves_mass(const Candidate& cause);
 
 /// How the sensor is mounted: it changes what is seen and not how the vehicle flies, and every real vehicle

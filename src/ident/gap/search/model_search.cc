@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "ident/core/error.h"
 #include "ident/flight/fit/fit_covariance.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/flight/fit/hover_priors.h"
 #include "ident/gap/search/exchange_sets.h"
 #include "ident/gap/search/next_cause.h"
@@ -167,11 +167,12 @@ class Search {
       return gain;
     };
     // Drag and what comes with it, wind that acts by it or rotors that flap as they drag, are one.
-    const auto has = [&](std::initializer_list<const char*> names) {
-      const auto is_it = [&](const Candidate& c) { return std::ranges::find(names, c.name) != names.end(); };
-      return is_it(cause) || std::ranges::any_of(s_.now.model.adopted, is_it);
+    const auto is_one_with = [](const Candidate& a, const Candidate& b) {
+      return traits_of(b.name).carries_air && (traits_of(a.name).by_the_air || implies(a.name, b.name));
     };
-    const bool in_one = has({"rotor_drag", "parasitic_drag"}) && has({"wind", "blade_flapping"});
+    const bool in_one = std::ranges::any_of(s_.now.model.adopted, [&](const Candidate& c) {
+      return is_one_with(c, cause) || is_one_with(cause, c);
+    });
     const int found = static_cast<int>(s_.out.steps.size()) - (in_one ? 1 : 0);
     const double gain = sum(s_.out.steps);
     return is_material(next, cause, found,
@@ -206,7 +207,7 @@ class Search {
   // little; the thrust itself shows it.
   void add_plain_battery() {
     s_.out.thrust = level_thrust(s_.record, s_.p);
-    const auto is_it = [](const Candidate& c) { return c.name == "battery_sag"; };
+    const auto is_it = [](const Candidate& c) { return traits_of(c.name).of_battery; };
     const auto battery = std::ranges::find_if(s_.now.problem.candidates, is_it);
     if (!s_.out.thrust.plain() || battery == s_.now.problem.candidates.end() ||
         std::ranges::any_of(s_.now.model.adopted, is_it))

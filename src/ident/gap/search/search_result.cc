@@ -5,12 +5,26 @@
 #include <cmath>
 
 #include "ident/core/statistics.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/gap/search/further.h"
 
 namespace ident {
 
 std::string described(const Candidate& c) {
   return c.rotor < 0 ? c.name : c.name + " (rotor " + std::to_string(c.rotor + 1) + ")";
+}
+
+std::vector<std::string> names_of(const std::vector<Candidate>& causes) {
+  const auto brought_along = [&](const Candidate& c) {
+    return std::ranges::any_of(causes, [&](const Candidate& other) {
+      const CauseTraits& traits = traits_of(other.name);
+      return (traits.by_the_air || traits.bolted_on) && implies(other.name, c.name);
+    });
+  };
+  std::vector<std::string> names;
+  for (const Candidate& c : causes)
+    if (!brought_along(c) && std::ranges::find(names, c.name) == names.end()) names.push_back(c.name);
+  return names;
 }
 
 double SearchResult::probability_of(const std::string& name) const {

@@ -44,6 +44,10 @@ struct SearchResult {
   double usual_scatter() const;
 };
 
+/// Names of causes, each once. What one of them brings along is not named beside it: the drag through which
+/// wind acts, the shift of the centre of gravity that a payload is.
+std::vector<std::string> names_of(const std::vector<Candidate>& causes);
+
 /// A cause with the direction of its rotor: "rotor_mismatch" and "rotor 2".
 std::string described(const Candidate& candidate);
 

@@ -60,25 +60,25 @@ Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
   if (!verdict.effects.empty() && std::ranges::all_of(verdict.effects, is_small) &&
       without < kAtTheFloor * gap.floor) {
     const std::string all = fmt::format("{}", fmt::join(verdict.effects, " with "));
-    return {.status = "none",
-            .sentence = fmt::format(
-                "With its constants refitted the model explains these logs down to the noise. What is left "
-                "looks like {} of hardly a size that could be seen, and measured rotor speeds are the input "
-                "here: what "
-                "they do between their samples is as large. Log the commands too.",
-                all),
-            .refused = true};
-  }
-  const auto depends = std::ranges::find_first_of(verdict.effects, loose);
-  std::string against;
-  if (depends != verdict.effects.end())
-    against = fmt::format("the size of {} depends on how the speeds are smoothed", *depends);
-  else if (!verdict.effects.empty() && gap.after >= gap.before)
-    against = "held-out flight is predicted no better with that";
-  if (!against.empty()) {
-    verdict.sentence = fmt::format("A gap is there that looks like {}, but {}.",
-                                   fmt::join(verdict.effects, " with "), against);
     verdict = unnamed(std::move(verdict));
+    verdict.status = "none", verdict.confused_with.clear();
+    verdict.sentence = fmt::format(
+        "With its constants refitted the model explains these logs down to the noise. What is left looks "
+        "like {} of hardly a size that could be seen, and measured rotor speeds are the input here: what "
+        "they do between their samples is as large. Log the commands too.",
+        all);
+    return verdict;
+  }
+  std::vector<std::string> against;
+  for (const std::string& name : verdict.effects)
+    if (gap.after >= gap.before || std::ranges::find(loose, name) != loose.end()) against.push_back(name);
+  if (!against.empty()) {
+    verdict.sentence = fmt::format(
+        "{} {} not named: {}. {}", fmt::join(against, " and "), against.size() == 1 ? "is" : "are",
+        gap.after >= gap.before ? "held-out flight is predicted no better with that"
+                                : "the size depends on how the rotor speeds are smoothed",
+        verdict.sentence);
+    verdict = unnamed(std::move(verdict), against);
   }
   if (verdict.status == "unknown")
     verdict.sentence +=

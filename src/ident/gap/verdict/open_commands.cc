@@ -9,6 +9,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/effects/cause_traits.h"
+
 namespace ident {
 namespace {
 
@@ -26,11 +28,7 @@ bool is_bent(const std::string& name) {
          std::ranges::any_of(kBent, [&](const Bent& bent) { return name == bent.name; });
 }
 
-bool passes_for_commands(const std::string& cause) {
-  static constexpr std::array kCauses = {"motor_delay",      "motor_asymmetry",     "parameter:omega_m",
-                                         "parameter:zeta_m", "parameter:dead_time", "parameter:Jp"};
-  return std::ranges::find(kCauses, cause) != kCauses.end();
-}
+bool passes_for_commands(const std::string& cause) { return traits_of(cause).between_rows; }
 
 }  // namespace
 
@@ -70,12 +68,11 @@ Judged with_open_commands(Judged verdict, double interval) {
   std::vector<std::string> passed;
   std::ranges::copy_if(verdict.effects, std::back_inserter(passed), passes_for_commands);
   if (!passed.empty()) {
-    verdict.sentence = fmt::format(
-        "The controller may go on between the commands that were logged, {:.3g} a second, and what it does "
-        "there "
-        "passes for {}: no cause is named. Log each command that is sent.",
+    verdict.sentence += fmt::format(
+        " The controller may go on between the commands that were logged, {:.3g} a second, and what it does "
+        "there passes for {}: that is not named. Log each command that is sent.",
         1 / interval, fmt::join(passed, " with "));
-    return unnamed(std::move(verdict));
+    return unnamed(std::move(verdict), passed);
   }
   verdict.sentence +=
       " The controller may go on between the commands that were logged: motors, and what acts about yaw, "

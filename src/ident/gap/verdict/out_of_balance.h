@@ -6,7 +6,8 @@
 
 namespace ident {
 
-/// A verdict of a flight with that vibration: `unknown` while a propeller is out of balance.
+/// A verdict of a flight with that vibration. A propeller out of balance is something else that is left;
+/// what a damaged one does beside shaking competes with causes of single rotors, of which none is named.
 Judged with_vibration(Judged verdict, const Vibration& vibration);
 
 }  // namespace ident

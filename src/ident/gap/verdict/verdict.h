@@ -1,40 +1,51 @@
-// What is said of a gap: named, ambiguous, unknown or none.
+// What is said of a gap: which causes are there, what else could be in their place, and what is left.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "ident/flight/fit/prediction.h"
-#include "ident/gap/search/search_result.h"
-#include "ident/gap/statistics/bursts.h"
-#include "ident/gap/statistics/generic_rival.h"
-#include "ident/gap/statistics/spectral_line.h"
+#include "ident/gap/verdict/contradicted.h"
+#include "ident/gap/verdict/discrepancy.h"
+#include "ident/gap/verdict/right_name.h"
 
 namespace ident {
+
+/// A cause found, and whether it is it.
+struct JudgedCause {
+  NameEvidence evidence;
+  double in_sets = 0;  ///< probability that it is in the set, by equation (5)
+  double right = 0;    ///< that no cause outside the catalogue does its work, by (8)
+  Share share;         ///< of the gap
+  double probability() const { return in_sets * right; }
+};
 
 struct Judged {
   std::string status, sentence;
   std::vector<std::string> effects, confused_with;
-  double remaining = kNaN;
-  /// What is named is there whatever else is; the rest is not explained.
-  bool plain = false;
-  /// Causes were found and not named: something about them is not as it is with true ones. How often the
-  /// nearest is there all the same, among flights of which that was known.
-  bool refused = false;
-  static constexpr double kNearestIsThere = 0.3;
+  std::vector<JudgedCause> causes;      ///< all that were found, named or not
+  Share remaining;                      ///< of the gap, by what the causes named do not close
+  Discrepancy rest;                     ///< what else is there
+  std::vector<Contradiction> findings;  ///< constants that the flight contradicts, beside the causes
 };
 
-/// From the search, the share closed on held-out flight by horizon (s), and what no cause of the catalogue
-/// can do.
-Judged judge(const SearchResult& search, const GapClosed& gap, const Rival& rival,
-             const std::vector<SpectralLine>& lines, const std::vector<Burst>& jumps,
-             const std::vector<Parameter>& fitted);
+/// All that a verdict rests on.
+struct Seen {
+  const SearchResult& search;
+  const GapClosed& gap;
+  const GapShares& shares;
+  const Rival& rival;
+  const std::vector<SpectralLine>& lines;
+  const std::vector<Burst>& jumps;
+  const std::vector<Unsteady>& unsteady;
+  const std::vector<Parameter>& fitted;
+};
+
+Judged judge(const Seen& seen);
 
 /// The verdict `unknown` of which nothing is named: what was, is among the nearest.
 Judged unnamed(Judged verdict);
 
-/// As `verdict` of a result.
-nlohmann::ordered_json to_json(const Judged& verdict);
+/// The same of these causes only; `unknown` where none of the others is named.
+Judged unnamed(Judged verdict, const std::vector<std::string>& causes);
 
 }  // namespace ident

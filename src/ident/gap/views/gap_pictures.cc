@@ -89,6 +89,44 @@ Plot waterfall_plot(const Json& found, const std::string& causes) {
       .column_names = {"model as given", step, "left", "noise floor"}};
 }
 
+Plot shares_plot(const Json& found) {
+  Plot plot{.id = "shares",
+            .title = "What each cause closes of the gap",
+            .caption =
+                "Of the squared error on held-out flight beyond the floor: Shapley values, with 95 % "
+                "intervals over blocks of flight.",
+            .y_label = "share of the gap [%]"};
+  Series bars{.name = "share", .style = Style::bars}, steps{.name = "closed", .style = Style::bars},
+      intervals{.name = "95 % interval", .style = Style::points};
+  const auto column = [&](const std::string& name) {
+    plot.column_names.push_back(name);
+    return static_cast<double>(plot.column_names.size() - 1);
+  };
+  bars.x.push_back(column("model as given")), bars.y.push_back(100);
+  double level = 100;
+  const auto add_interval = [&](double x, double at, const Json& ci95) {
+    intervals.x.push_back(x), intervals.y.push_back(at);
+    intervals.y2.push_back(50 * (number(ci95[1]) - number(ci95[0])));
+  };
+  for (const Json& candidate : found["candidates"]) {
+    const auto& named = found["verdict"]["effects"];
+    if (std::ranges::find(named, candidate["effect"]) == named.end() || !candidate.contains("share") ||
+        !candidate["share"].is_number())
+      continue;
+    const double x = column(candidate["effect"]), next = level - 100 * number(candidate["share"]);
+    steps.x.push_back(x), steps.y.push_back(next), steps.y2.push_back(level);
+    add_interval(x, next, candidate["share_ci95"]);
+    level = next;
+  }
+  if (steps.x.empty()) return plot;
+  const Json& left = found["verdict"]["remaining"];
+  const double x = column("left");
+  bars.x.push_back(x), bars.y.push_back(level);
+  if (left.is_object()) add_interval(x, level, left["share_ci95"]);
+  plot.series = {std::move(bars), std::move(steps), std::move(intervals)};
+  return plot;
+}
+
 Plot channel_plot(const Json& where) {
   Plot plot = share_plot("channels", "Share of the force and moment channels");
   for (const Json& channel : where["channels"])

@@ -9,6 +9,10 @@ namespace ident {
 /// From the error of the model as given, by what the causes close, to what is left and the noise floor.
 Plot waterfall_plot(const nlohmann::ordered_json& found, const std::string& causes);
 
+/// From the whole gap, by the share that each cause named closes, to what is left; without series where no
+/// share is known.
+Plot shares_plot(const nlohmann::ordered_json& found);
+
 /// Share of each channel and of each frequency band.
 Plot channel_plot(const nlohmann::ordered_json& where);
 Plot band_plot(const nlohmann::ordered_json& where);

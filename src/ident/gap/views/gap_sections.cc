@@ -73,11 +73,38 @@ Table horizon_table(const Json& gap) {
   return table;
 }
 
+// Each cause named: is it there, and what does it close; and what is left.
+Table share_table(const Json& found) {
+  Table table{.title = "What closes the gap",
+              .columns = {"", "probability", "share of the gap [%]", "95 % interval"}};
+  const auto row = [&](const std::string& name, const Json& probability, const Json& share,
+                       const Json& ci95) {
+    const double p = number(probability);
+    table.rows.push_back({name, std::isfinite(p) ? fmt::format("{:.2f}", p) : "–", percent(share),
+                          fmt::format("[{}, {}]", percent(ci95[0]), percent(ci95[1]))});
+  };
+  for (const Json& c : found["candidates"])
+    if (c.contains("share")) row(c["effect"], c["probability"], c["share"], c["share_ci95"]);
+  const Json& verdict = found["verdict"];
+  if (verdict.contains("remaining") && verdict["remaining"].is_object() && !table.rows.empty()) {
+    const Json& left = verdict["remaining"];
+    const std::string what = left["description"];
+    row(what.empty() ? "what is left" : "what is left: " + what, left["probability"], left["share"],
+        left["share_ci95"]);
+  }
+  return table;
+}
+
 Section how_section(const Json& found, const std::string& causes) {
-  return {.title = "How far the gap closes",
-          .text = how_far(found["gap"], causes),
-          .tables = {horizon_table(found["gap"])},
-          .plots = {waterfall_plot(found, causes)}};
+  Section section{.title = "How far the gap closes",
+                  .text = how_far(found["gap"], causes),
+                  .tables = {horizon_table(found["gap"])},
+                  .plots = {waterfall_plot(found, causes)}};
+  if (Table shares = share_table(found); !shares.rows.empty())
+    section.tables.insert(section.tables.begin(), std::move(shares));
+  if (Plot shares = shares_plot(found); !shares.series.empty())
+    section.plots.insert(section.plots.begin(), std::move(shares));
+  return section;
 }
 
 const Json* candidate(const Json& found, const std::string& name) {

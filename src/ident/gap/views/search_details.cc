@@ -63,6 +63,18 @@ Json as_json(std::span<const Burst> bursts) {
   return out;
 }
 
+// Gusts as found with every cause free: standard deviation along three axes, m/s^2 and rad/s^2.
+Json air_of(const NoiseModel& noise) {
+  Json out = Json::array();
+  for (const AirNoise& air : noise.air) {
+    Json push = Json::array(), turn = Json::array();
+    for (std::size_t k = 0; k < 3; ++k)
+      push.push_back(air.v_dot[k].sigma), turn.push_back(air.w_dot[k].sigma);
+    out.push_back({{"push", push}, {"turn", turn}, {"tau", air.v_dot[0].tau}});
+  }
+  return out;
+}
+
 Json steps_of(const SearchResult& search) {
   Json out = Json::array();
   for (const SearchStep& s : search.steps) out.push_back({{"adopted", s.name}, {"gain", s.gain}});
@@ -84,6 +96,7 @@ Json search_details(const SearchSeen& seen) {
   if (const LevelThrust& thrust = search.thrust; std::isfinite(thrust.n))
     out["level_thrust"] = {{"n", thrust.n},       {"n_std", thrust.n_std},         {"varies", thrust.varies},
                            {"left", thrust.left}, {"stretches", thrust.stretches}, {"plain", thrust.plain()}};
+  out["air_found"] = {{"comparison", air_of(search.form.noise)}, {"best", air_of(search.best.fit.noise)}};
   out["explained"] = search.explained();
   return out;
 }

@@ -1,0 +1,73 @@
+// Kurtosis of the residual, with as many independent samples as its colour leaves.
+#include "ident/gap/statistics/steadiness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace ident {
+namespace {
+
+constexpr double kStretch = 3.0;    // s
+constexpr std::size_t kLeast = 60;  // rows of a log that can be judged
+
+struct Series {
+  std::vector<double> t, y;
+};
+
+Series series_of(const ResidualWrench& w, Eigen::Index channel, int log) {
+  Series out;
+  for (std::size_t k = 0; k < w.t.size(); ++k)
+    if (const double y = w.residual(static_cast<Eigen::Index>(k), channel);
+        w.log[k] == log && std::isfinite(y))
+      out.t.push_back(w.t[k]), out.y.push_back(y);
+  double mean = 0;
+  for (const double y : out.y) mean += y / static_cast<double>(out.y.size());
+  for (double& y : out.y) y -= mean;
+  return out;
+}
+
+// Correlation of the squares of neighbours: what a burst does to the number of independent samples.
+double carried_over(const std::vector<double>& y, double variance) {
+  double sum = 0, all = 0;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    const double here = y[k] * y[k] - variance;
+    all += here * here;
+    if (k > 0) sum += here * (y[k - 1] * y[k - 1] - variance);
+  }
+  return all > 0 ? std::clamp(sum / all, 0.0, 0.99) : 0.0;
+}
+
+// Of n independent samples of a normal process the kurtosis is 3 with a variance of 24/n; its logarithm is
+// nearer to normal.
+std::optional<Unsteady> judged(const Series& s, const std::string& channel, int log) {
+  const auto n = static_cast<double>(s.y.size());
+  if (s.y.size() < kLeast) return {};
+  double second = 0, fourth = 0;
+  for (const double y : s.y) second += y * y / n, fourth += y * y * y * y / n;
+  if (!(second > 0)) return {};
+  const double carried = carried_over(s.y, second), independent = n * (1 - carried) / (1 + carried);
+  Unsteady out{channel, log, fourth / (second * second)};
+  out.deviations = std::log(out.kurtosis / 3) / (std::sqrt(24 / independent) / 3);
+  std::map<int, double> power;
+  for (std::size_t k = 0; k < s.y.size(); ++k) power[static_cast<int>(s.t[k] / kStretch)] += s.y[k] * s.y[k];
+  const auto most = std::ranges::max_element(power, {}, [](const auto& stretch) { return stretch.second; });
+  out.from = kStretch * most->first, out.to = out.from + kStretch;
+  out.share = most->second / (n * second);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Unsteady> unsteady(const ResidualWrench& wrench) {
+  std::vector<Unsteady> out;
+  for (Eigen::Index c = 0; c < std::min<Eigen::Index>(5, wrench.residual.cols()); ++c)  // Fx to My
+    for (int log = 0; !wrench.log.empty() && log <= wrench.log.back(); ++log)
+      if (const auto one = judged(series_of(wrench, c, log), wrench.names[static_cast<std::size_t>(c)], log))
+        out.push_back(*one);
+  std::ranges::sort(out, std::greater<>(), &Unsteady::deviations);
+  return out;
+}
+
+}  // namespace ident

@@ -1,0 +1,107 @@
+// One sentence for each status, and one for each thing beside it.
+#include "ident/gap/verdict/verdict_sentence.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ident/core/format_number.h"
+#include "ident/gap/verdict/decision.h"
+
+namespace ident {
+namespace {
+
+std::string percent(const Share& share) {
+  const auto in_100 = [](double x) { return std::round(100 * x) + 0.0; };  // no -0
+  return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", in_100(share.value), in_100(share.ci95[0]),
+                     in_100(share.ci95[1]));
+}
+
+// "battery_sag (77 % [70, 84] of the gap) and rotor_drag".
+std::string named(const Judged& verdict) {
+  std::vector<std::string> out;
+  for (const std::string& name : verdict.effects) {
+    out.push_back(name);
+    for (const JudgedCause& cause : verdict.causes)
+      if (cause.evidence.name == name && std::isfinite(cause.share.value))
+        out.back() += fmt::format(" ({} of the gap)", percent(cause.share));
+  }
+  return fmt::format("{}", fmt::join(out, " and "));
+}
+
+std::string left(const Judged& verdict) {
+  if (verdict.rest.signs.empty()) return {};
+  return fmt::format(" What is left: {}.", verdict.rest.said());
+}
+
+std::string missed(const GapClosed& gap) {
+  const double ratio = gap.after / gap.floor;
+  if (!std::isfinite(ratio)) return {};
+  return fmt::format(" Half a second ahead the model misses {} times the noise of sensors and air.",
+                     format_number(ratio, 2));
+}
+
+std::string unknown(const Judged& verdict, const Seen& seen) {
+  std::string out = "Something acts on this vehicle of which no cause of the catalogue is certain.";
+  if (!verdict.causes.empty()) {
+    std::vector<std::string> nearest;
+    for (const JudgedCause& cause : verdict.causes)
+      nearest.push_back(fmt::format("{} (probability {:.2f})", cause.evidence.name, cause.probability()));
+    out += fmt::format(" The nearest is {}: it would act like this, and more speaks against it.",
+                       fmt::join(nearest, " with "));
+  }
+  if (!seen.search.ran_away.empty())
+    out += fmt::format(" No model with {} could be flown along these logs.",
+                       fmt::join(seen.search.ran_away, " or "));
+  return out + left(verdict) + (verdict.rest.signs.empty() ? missed(seen.gap) : "");
+}
+
+std::string none(const Seen& seen) {
+  const double ratio = seen.gap.after / seen.gap.floor;
+  std::string out =
+      "The model explains these logs down to the noise of the sensors and the air; no cause "
+      "stands out.";
+  if (std::isfinite(ratio) && ratio > 1 + kFloorKnown)
+    out += fmt::format(" Held-out flight is missed by {} times that noise, as chance may have it.",
+                       format_number(ratio, 2));
+  if (!seen.gap.held_out)
+    out +=
+        " They, or their pieces, are too short for flight to be held out: what they do not show may well "
+        "be there, up to the sizes given.";
+  return out;
+}
+
+}  // namespace
+
+std::string sentence_of(const Judged& verdict, const Seen& seen) {
+  std::string out;
+  if (verdict.status == "none") {
+    out = none(seen);
+  } else if (verdict.status == "unknown") {
+    out = unknown(verdict, seen);
+  } else {
+    const std::string causes = named(verdict);
+    if (verdict.status == "identified")
+      out = fmt::format("The gap is explained by {}.", causes);
+    else if (verdict.status == "partly")
+      out = fmt::format("There is {}, and something else is left.", causes);
+    else
+      out = fmt::format("The gap is explained by {}, but {} would explain it about as well.", causes,
+                        fmt::join(verdict.confused_with, " or "));
+    if (verdict.remaining.value > kMaterial)
+      out += fmt::format(" {} of the gap remains{}.", percent(verdict.remaining),
+                         verdict.status == "identified" ? ", which is not told from gusts and noise" : "");
+    std::vector<std::string> like;
+    for (const JudgedCause& cause : verdict.causes)
+      if (std::ranges::find(verdict.effects, cause.evidence.name) == verdict.effects.end())
+        like.push_back(cause.evidence.name);
+    if (!like.empty()) out += fmt::format(" Part of what is left acts like {}.", fmt::join(like, " and "));
+    if (verdict.status != "identified") out += left(verdict);
+  }
+  for (const Contradiction& one : verdict.findings) out += " Beside that, " + in_words(one) + ".";
+  return out;
+}
+
+}  // namespace ident
