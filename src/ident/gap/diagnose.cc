@@ -11,7 +11,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
-#include "ident/core/json_number.h"
+#include "ident/result/json_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/cause_traits.h"

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kMedianOfNormal = 0.674489750196082;  // of |x|
 constexpr double kSettled = 3.0;                       // noise levels within which a row has settled
-constexpr std::size_t kFewestRows = 10;                // of either kind
+constexpr std::size_t kFewestRowsScale = 10;                // of either kind
 constexpr double kMadSpread = 1.17;  // relative standard deviation of a MAD scale times sqrt(n), normal noise
 constexpr double kResolution = 1e-6;  // of the largest way: no speed is known better
-constexpr double kEvident = 4.0;      // standard deviations
+constexpr double kEvidentScale = 4.0;      // standard deviations
 
 double median_size(std::span<const double> residuals, std::span<const double> ways,
                    const std::vector<std::size_t>& rows, const TransientError& error) {
@@ -57,11 +57,11 @@ TransientError transient_error(std::span<const double> residuals, std::span<cons
     else
       settled.push_back(residuals[i]);
   }
-  if (settled.size() < kFewestRows || moving.size() < kFewestRows) return {};
+  if (settled.size() < kFewestRowsScale || moving.size() < kFewestRowsScale) return {};
   TransientError error{.sigma = std::max(mad_scale(settled, 0.0), kResolution * std::ranges::max(ways))};
   const double chance = kMadSpread * std::sqrt(1.0 / static_cast<double>(moving.size()) +
                                                1.0 / static_cast<double>(settled.size()));
-  if (median_size(residuals, ways, moving, error) < kMedianOfNormal * (1.0 + kEvident * chance)) return error;
+  if (median_size(residuals, ways, moving, error) < kMedianOfNormal * (1.0 + kEvidentScale * chance)) return error;
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 50; ++i) {
     error.share = 0.5 * (low + high);

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostRawPoints = 3000;  // beyond it rows of a set-point are averaged as in a log
 constexpr std::size_t kMostSetPoints =
     80;  // with a speed of their own each: cost grows with the square of their number
-constexpr std::size_t kMostStretches = 100;  // of a ramp in a table
+constexpr std::size_t kMostStretchesPoints = 100;  // of a ramp in a table
 constexpr std::size_t kFewestInADwell = 3;
 constexpr std::size_t kFewestPoints = 3;
 constexpr std::size_t kFewestDwells = 4;
@@ -117,7 +117,7 @@ std::vector<RestStay> take_stretches(const SweepRows& rows, const std::vector<do
     }
     if (i < rows.size() && std::isfinite(y[i]) && std::isfinite(rows.Omega[i])) moving.push_back(i);
   }
-  const std::size_t length = std::max(kFewestInADwell, moving.size() / kMostStretches);
+  const std::size_t length = std::max(kFewestInADwell, moving.size() / kMostStretchesPoints);
   for (std::size_t begin = 0; begin + length <= moving.size(); begin += length) {
     std::vector<double> values, squares, places;
     for (std::size_t k = begin; k < begin + length; ++k) {

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kForceHorizon = 0.5, kForceSpacing = 0.1;     // s: users judge by half a second
 constexpr double kMomentHorizon = 0.1, kMomentSpacing = 0.05;  // s: rates are turned back sooner
-constexpr double kBlock = 2.0;                                 // s over which residuals are taken for related
+constexpr double kBlockFit = 2.0;                                 // s over which residuals are taken for related
 constexpr int kSloped = 2;  // of them with slopes of their own: forces are nearly linear in all constants
 constexpr int kSteps = 6;   // most Gauss-Newton steps; the model is nearly linear
 constexpr double kStill = 1e-3;  // of a unit: no step worth another
@@ -61,7 +61,7 @@ VectorXd colour(const std::vector<Window>& windows, const MatrixXd& J, const Vec
                 const VectorXd& information) {
   std::map<std::pair<std::size_t, long>, VectorXd> blocks;
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    VectorXd& score = blocks[{windows[w].arc, std::lround(std::floor(windows[w].t / kBlock))}];
+    VectorXd& score = blocks[{windows[w].arc, std::lround(std::floor(windows[w].t / kBlockFit))}];
     if (score.size() == 0) score = VectorXd::Zero(J.cols());
     const auto at = 3 * static_cast<Eigen::Index>(w);
     score += J.middleRows(at, 3).transpose() * weighted.segment<3>(at);

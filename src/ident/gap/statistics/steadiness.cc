@@ -9,8 +9,8 @@
 namespace ident {
 namespace {
 
-constexpr double kStretch = 3.0;    // s
-constexpr std::size_t kLeast = 60;  // rows of a log that can be judged
+constexpr double kStretchSteadiness = 3.0;    // s
+constexpr std::size_t kLeastSteadiness = 60;  // rows of a log that can be judged
 
 struct Series {
   std::vector<double> t, y;
@@ -43,7 +43,7 @@ double carried_over(const std::vector<double>& y, double variance) {
 // nearer to normal.
 std::optional<Unsteady> judged(const Series& s, const std::string& channel, int log) {
   const auto n = static_cast<double>(s.y.size());
-  if (s.y.size() < kLeast) return {};
+  if (s.y.size() < kLeastSteadiness) return {};
   double second = 0, fourth = 0;
   for (const double y : s.y) second += y * y / n, fourth += y * y * y * y / n;
   if (!(second > 0)) return {};
@@ -51,9 +51,9 @@ std::optional<Unsteady> judged(const Series& s, const std::string& channel, int 
   Unsteady out{channel, log, fourth / (second * second)};
   out.deviations = std::log(out.kurtosis / 3) / (std::sqrt(24 / independent) / 3);
   std::map<int, double> power;
-  for (std::size_t k = 0; k < s.y.size(); ++k) power[static_cast<int>(s.t[k] / kStretch)] += s.y[k] * s.y[k];
+  for (std::size_t k = 0; k < s.y.size(); ++k) power[static_cast<int>(s.t[k] / kStretchSteadiness)] += s.y[k] * s.y[k];
   const auto most = std::ranges::max_element(power, {}, [](const auto& stretch) { return stretch.second; });
-  out.from = kStretch * most->first, out.to = out.from + kStretch;
+  out.from = kStretchSteadiness * most->first, out.to = out.from + kStretchSteadiness;
   out.share = most->second / (n * second);
   return out;
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ident/core/json_number.h"
+#include "ident/result/json_number.h"
 #include "ident/gap/views/gap_sections.h"
 
 namespace ident {

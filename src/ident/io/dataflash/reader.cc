@@ -19,7 +19,7 @@ namespace {
 using dataflash::Layout;
 
 constexpr char kHead1 = '\xA3', kHead2 = '\x95';
-constexpr std::size_t kHeader = 3;   // bytes: A3 95, kind of message
+constexpr std::size_t kHeaderReader = 3;   // bytes: A3 95, kind of message
 constexpr int kFormatKind = 128;     // FMT, which describes itself as the others
 constexpr std::size_t kFormat = 86;  // bytes of an FMT behind its header: u8 u8 char[4] char[16] char[64]
 
@@ -40,7 +40,7 @@ class Reader {
   }
 
   LogStreams run() {
-    while (bytes_.size() - at_ >= kHeader)
+    while (bytes_.size() - at_ >= kHeaderReader)
       if (!take_message()) break;
     if (skipped_ > 0) damage_.add(at_ - skipped_, fmt::format("{} bytes are no message", skipped_));
     for (const std::unique_ptr<Kind>& kind : kinds_) make_stream(*kind);
@@ -55,10 +55,10 @@ class Reader {
     const bool is_head = begin[0] == kHead1 && begin[1] == kHead2;
     const int id = static_cast<unsigned char>(begin[2]);
     if (is_head && id == kFormatKind) {
-      if (bytes_.size() - at_ < kHeader + kFormat) return false;
+      if (bytes_.size() - at_ < kHeaderReader + kFormat) return false;
       end_of_skipped();
-      take_format(bytes_.substr(at_ + kHeader, kFormat));
-      at_ += kHeader + kFormat;
+      take_format(bytes_.substr(at_ + kHeaderReader, kFormat));
+      at_ += kHeaderReader + kFormat;
       return true;
     }
     Kind* const kind = is_head ? of_id_[static_cast<std::size_t>(id)] : nullptr;
@@ -169,7 +169,7 @@ class Reader {
 }  // namespace
 
 bool DataflashFormat::recognises(std::string_view first) {
-  return first.size() >= kHeader && first[0] == kHead1 && first[1] == kHead2 &&
+  return first.size() >= kHeaderReader && first[0] == kHead1 && first[1] == kHead2 &&
          static_cast<unsigned char>(first[2]) == kFormatKind;
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double kMicrosecond = 1e-6;  // s
 constexpr int kMostOutputs = 32;
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
   if (const std::size_t at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
   return text;
 }
@@ -63,7 +63,7 @@ class Finder {
     if (motor > static_cast<int>(map_.motor_functions.size())) return std::nullopt;
     bool stated = false;
     for (int k = 1; k <= kMostOutputs; ++k) {
-      const auto function = log_.parameter(with(map_.output_function, "{k}", std::to_string(k)));
+      const auto function = log_.parameter(with_replaced(map_.output_function, "{k}", std::to_string(k)));
       stated = stated || function.has_value();
       if (function && *function == map_.motor_functions[static_cast<std::size_t>(motor - 1)]) return k;
     }
@@ -76,7 +76,7 @@ class Finder {
       const std::optional<int> output = output_of(mapped.number);
       if (!output) return {};
       column =
-          with(with(column, "{output}", std::to_string(*output)), "{output-1}", std::to_string(*output - 1));
+          with_replaced(with(column, "{output}", std::to_string(*output)), "{output-1}", std::to_string(*output - 1));
     }
     if (!mapped.stream.empty()) {
       const LogStream* stream = find_stream(log_, mapped.stream);

@@ -9,7 +9,7 @@ namespace ident {
 namespace {
 
 constexpr double kGravity = 9.80665;  // CONSTANTS_ONE_G of PX4
-constexpr double kDragSpeed = 5.0;    // m/s at which the drag of the airframe is replaced by a linear one
+constexpr double kDragSpeedSih = 5.0;    // m/s at which the drag of the airframe is replaced by a linear one
 
 bool recognises(std::string_view text) {
   return sets_parameter(text, "SIH_MASS") || sets_parameter(text, "SIH_T_MAX") ||
@@ -47,7 +47,7 @@ Vehicle vehicle(const Fields& f) {
 void stand_in(const Vehicle& whole, Vehicle& v) {
   v.g = kGravity;
   set_by_full_thrust(v, full_thrust(v), full_thrust(v) * torque_per_thrust(v));
-  const double drag = as_stated(whole_linear_drag(whole, kDragSpeed));
+  const double drag = as_stated(whole_linear_drag(whole, kDragSpeedSih));
   for (const char* name : {"Kdx", "Kdy", "Kdz"}) {
     v.parameters.erase(name);
     state_unless_zero(v, name, drag);
@@ -94,11 +94,11 @@ std::vector<std::string> remarks(const Vehicle& whole, const Vehicle& v) {
   std::vector<std::string> out = {
       "thrust is linear in SIH's command, and the lag acts on it: with THR_MDL_FAC 0 in the "
       "simulation, steady flight agrees with the vehicle"};
-  if (whole_linear_drag(whole, kDragSpeed) > 0)
+  if (whole_linear_drag(whole, kDragSpeedSih) > 0)
     out.push_back(fmt::format(
         "all drag becomes the linear SIH_KDV {:.4g} N/(m/s): that of the rotors as at hover, that of the "
         "airframe as at {} m/s",
-        value_or_zero(v, "Kdx"), kDragSpeed));
+        value_or_zero(v, "Kdx"), kDragSpeedSih));
   return out;
 }
 

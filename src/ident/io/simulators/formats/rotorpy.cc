@@ -12,7 +12,7 @@ namespace ident {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kGravity = 9.81;  // m/s^2 of RotorPy
+constexpr double kGravityRotorpy = 9.81;  // m/s^2 of RotorPy
 constexpr const char* kName = "quad_params";
 
 struct Entry {
@@ -53,7 +53,7 @@ void read_rotors(const Fields& f, Vehicle& v) {
 
 Vehicle vehicle(const Fields& f) {
   Vehicle v;
-  v.g = kGravity;
+  v.g = kGravityRotorpy;
   read_rotors(f, v);
   for (const Entry& e : kPlain) state_unless_zero(v, e.constant, f.number(e.name, 0.0));
   state_unless_zero(v, "blade_flapping.kf", -f.number("k_flap", 0.0));
@@ -78,7 +78,7 @@ Vehicle vehicle(const Fields& f) {
   return v;
 }
 
-void stand_in(const Vehicle&, Vehicle& v) { v.g = kGravity; }
+void stand_in(const Vehicle&, Vehicle& v) { v.g = kGravityRotorpy; }
 
 std::vector<Value> values(const Vehicle& v, const Fields*) {
   std::vector<Value> out;
@@ -126,7 +126,7 @@ std::string page(const Vehicle& v, const Values& values) {
 }
 
 std::vector<std::string> remarks(const Vehicle& v, const Vehicle&) {
-  if (v.g == kGravity) return {};
+  if (v.g == kGravityRotorpy) return {};
   return {fmt::format("RotorPy computes with 9.81 m/s^2, the vehicle file says {:.6g}", v.g)};
 }
 

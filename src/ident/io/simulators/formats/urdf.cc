@@ -14,8 +14,8 @@
 namespace ident {
 namespace {
 
-constexpr double kPerRpm = std::numbers::pi / 30.0;  // rad/s
-const std::vector<FixedRotor> kLayout = {{1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, -1}};
+constexpr double kPerRpmUrdf = std::numbers::pi / 30.0;  // rad/s
+const std::vector<FixedRotor> kLayoutUrdf = {{1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, -1}};
 
 std::string hub(std::size_t n) { return fmt::format("prop{}.xyz", n); }
 
@@ -49,7 +49,7 @@ Fields read(const std::string& text, const std::string& file) {
 Vehicle vehicle(const Fields& f) {
   Vehicle v;
   for (std::size_t n = 0; n < 4; ++n)
-    v.rotors.push_back({.r_B = flipped(f.vector3(hub(n))), .s = kLayout[n].spin});
+    v.rotors.push_back({.r_B = flipped(f.vector3(hub(n))), .s = kLayoutUrdf[n].spin});
   MassProperties body{.m = f.positive("mass")};
   body.J.diagonal() << f.positive("ixx"), f.positive("iyy"), f.positive("izz");
   set_mass_properties(v, body);
@@ -57,8 +57,8 @@ Vehicle vehicle(const Fields& f) {
     if (f.number(product, 0.0) != 0.0)
       assume(v, f, "products of inertia are ignored, as gym-pybullet-drones does");
   v.g = 9.8;  // BaseAviary.G
-  v.parameters["kT"] = {f.positive("kf") / (kPerRpm * kPerRpm), {}};
-  v.parameters["kQ"] = {f.positive("km") / (kPerRpm * kPerRpm), {}};
+  v.parameters["kT"] = {f.positive("kf") / (kPerRpmUrdf * kPerRpmUrdf), {}};
+  v.parameters["kQ"] = {f.positive("km") / (kPerRpmUrdf * kPerRpmUrdf), {}};
   v.parameters["km"] = {
       as_stated(std::sqrt(f.positive("thrust2weight") * body.m * v.g / (4 * v.value("kT")))), {}};
   state_unless_zero(v, "rotor_drag.kd", f.number("drag_coeff_xy", 0.0));
@@ -91,8 +91,8 @@ std::vector<Value> values(const Vehicle& v, const Fields* own) {
   const double ground = value_or_zero(v, "ground_effect.radius_sq");
   std::vector<Value> out = {
       {"arm", {arm}, "m", "hubs"},
-      {"kf", {kT * kPerRpm * kPerRpm}, "N/rpm^2", "kT"},
-      {"km", {v.value("kQ") * kPerRpm * kPerRpm}, "N m/rpm^2", "kQ"},
+      {"kf", {kT * kPerRpmUrdf * kPerRpmUrdf}, "N/rpm^2", "kT"},
+      {"km", {v.value("kQ") * kPerRpmUrdf * kPerRpmUrdf}, "N m/rpm^2", "kQ"},
       {"thrust2weight", {4 * kT * most * most / (m * v.g)}, "-", "kT (Omega_0 + km)^2 over m g"},
       {"gnd_eff_coeff", {ground / (radius * radius)}, "-", "ground_effect.radius^2/R^2"},
       {"prop_radius", {radius}, "m", "propeller_radius"},
@@ -178,7 +178,7 @@ SimulatorFormat urdf_format() {
                     .centre = Capacity::Centre::none,
                     .tilted_axes = false,
                     .motor = Capacity::Motor::instant,
-                    .layout = kLayout,
+                    .layout = kLayoutUrdf,
                     .constants = {"rotor_drag.kd", "axial_inflow.kz", "ground_effect.radius_sq"},
                     .needs = {"km"}},
           .recognises = recognises,
