@@ -6,9 +6,12 @@
 #include "command.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/file/read_bytes.h"
+#include "ident/io/simulators/patch.h"
 #include "ident/io/simulators/samples.h"
 #include "ident/io/simulators/simulators.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
+#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident::app {
 namespace {

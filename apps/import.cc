@@ -6,6 +6,7 @@
 #include "ident/io/file/read_bytes.h"
 #include "ident/io/simulators/simulators.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident::app {
 namespace {

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "command.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/log_formats/read_log_streams.h"
 #include "ident/io/rebuild/px4_commands.h"

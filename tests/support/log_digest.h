@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ident/data/log_streams.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

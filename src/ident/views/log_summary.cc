@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/result/result.h"
 #include "ident/views/log_advice.h"
 
 namespace ident {

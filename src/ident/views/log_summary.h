@@ -7,6 +7,7 @@
 
 #include "ident/data/flight_log.h"
 #include "ident/data/log_streams.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

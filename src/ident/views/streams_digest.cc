@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/result/result.h"
+
 namespace ident {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ident/data/log_streams.h"
+#include "ident/result/result.h"
 
 namespace ident {
 

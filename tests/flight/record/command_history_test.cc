@@ -8,6 +8,7 @@
 #include "ident/core/random.h"
 #include "ident/flight/refine.h"
 #include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/io/simulators/lost.h"
 #include "support/known_quad.h"
 
 namespace ident {

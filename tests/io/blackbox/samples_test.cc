@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "ident/io/blackbox/format.h"
+#include "ident/result/result.h"
 #include "support/log_digest.h"
 #include "support/mangled.h"
 #include "support/real_data_folder.h"

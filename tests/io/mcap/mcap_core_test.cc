@@ -9,6 +9,7 @@
 
 #include "ident/io/file/whole_file.h"
 #include "ident/io/mcap/format.h"
+#include "ident/result/result.h"
 #include "support/log_digest.h"
 #include "support/real_data_folder.h"
 

@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "ident/io/ros2/common_definitions.h"
+#include "ident/io/ros2/idl_text.h"
 #include "ident/io/ros2/message_columns.h"
+#include "ident/io/ros2/msg_text.h"
 #include "ident/io/ros2/topic.h"
 #include "support/bag_bytes.h"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <regex>
 
+#include "ident/io/simulators/patch.h"
 #include "ident/io/simulators/reduced.h"
 #include "ident/io/simulators/simulators.h"
 #include "io/simulators/simulator_vehicles.h"

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ident/core/error.h"
+#include "ident/io/simulators/patch.h"
 #include "ident/io/simulators/simulators.h"
 
 namespace ident {

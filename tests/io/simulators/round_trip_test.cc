@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ident/io/simulators/patch.h"
 #include "ident/io/simulators/reduced.h"
 #include "ident/io/simulators/simulators.h"
 #include "io/simulators/simulator_vehicles.h"

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "ident/core/format_number.h"
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "ident/core/math.h"
 #include "ident/core/statistics.h"
 
 namespace ident {

@@ -7,6 +7,7 @@
 #include "ident/effects/all_parameters.h"
 #include "ident/flight/ladder/constant_limits.h"
 #include "ident/flight/ladder/paired_comparison.h"
+#include "ident/flight/record/excerpts.h"
 
 namespace ident {
 namespace {

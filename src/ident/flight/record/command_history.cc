@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ident/data/sampling.h"
+#include "ident/io/simulators/lost.h"
 
 namespace ident {
 namespace {

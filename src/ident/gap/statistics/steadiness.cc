@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "ident/result/section.h"
+
 namespace ident {
 namespace {
 
@@ -51,7 +53,8 @@ std::optional<Unsteady> judged(const Series& s, const std::string& channel, int 
   Unsteady out{channel, log, fourth / (second * second)};
   out.deviations = std::log(out.kurtosis / 3) / (std::sqrt(24 / independent) / 3);
   std::map<int, double> power;
-  for (std::size_t k = 0; k < s.y.size(); ++k) power[static_cast<int>(s.t[k] / kStretchSteadiness)] += s.y[k] * s.y[k];
+  for (std::size_t k = 0; k < s.y.size(); ++k)
+    power[static_cast<int>(s.t[k] / kStretchSteadiness)] += s.y[k] * s.y[k];
   const auto most = std::ranges::max_element(power, {}, [](const auto& stretch) { return stretch.second; });
   out.from = kStretchSteadiness * most->first, out.to = out.from + kStretchSteadiness;
   out.share = most->second / (n * second);

@@ -11,6 +11,8 @@
 #include "ident/io/mcap/records.h"
 #include "ident/io/packed/crc32.h"
 #include "ident/io/packed/damage.h"
+#include "ident/io/ros2/idl_text.h"
+#include "ident/io/ros2/msg_text.h"
 #include "ident/io/ros2/topic.h"
 
 namespace ident {

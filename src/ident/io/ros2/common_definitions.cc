@@ -1,5 +1,7 @@
 // Message types of the common ROS 2 packages, whose fields have been the same since they were first released.
-#include "ident/io/ros2/definition.h"
+#include "ident/io/ros2/common_definitions.h"
+
+#include "ident/io/ros2/msg_text.h"
 
 namespace ident::ros2 {
 

@@ -45,18 +45,4 @@ struct ParsedDefinitions {
   std::string problem;
 };
 
-/// `geometry_msgs/msg/Pose` and `geometry_msgs::msg::Pose` as `geometry_msgs/Pose`.
-std::string plain_type_name(std::string_view name);
-
-/// Text of the encoding `ros2msg`: the type's own `.msg`, then those it needs, each behind a line of `=` and
-/// `MSG: name`.
-ParsedDefinitions parse_msg_text(std::string_view type, std::string_view text);
-
-/// Text of the encoding `ros2idl`: modules with structures, each file behind a line of `=` and `IDL: name`.
-ParsedDefinitions parse_idl_text(std::string_view text);
-
-/// Types of the common packages (std_msgs, geometry_msgs, sensor_msgs, nav_msgs, mavros_msgs, ...), for bags
-/// that do not hold their own definitions.
-const Definitions& common_definitions();
-
 }  // namespace ident::ros2

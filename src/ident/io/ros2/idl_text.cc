@@ -1,4 +1,6 @@
 // Reads message definitions written as OMG IDL, the part of it that ROS 2 generates.
+#include "ident/io/ros2/idl_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,7 +8,7 @@
 #include <charconv>
 #include <optional>
 
-#include "ident/io/ros2/definition.h"
+#include "ident/io/ros2/msg_text.h"
 
 namespace ident::ros2 {
 

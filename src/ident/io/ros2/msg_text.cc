@@ -1,11 +1,11 @@
 // Reads message definitions written as `.msg` text.
+#include "ident/io/ros2/msg_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
-
-#include "ident/io/ros2/definition.h"
 
 namespace ident::ros2 {
 

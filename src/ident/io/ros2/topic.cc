@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "ident/io/ros2/msg_text.h"
+
 namespace ident::ros2 {
 
 namespace {

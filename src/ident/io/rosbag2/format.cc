@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "ident/core/error.h"
+#include "ident/io/ros2/common_definitions.h"
+#include "ident/io/ros2/idl_text.h"
+#include "ident/io/ros2/msg_text.h"
 #include "ident/io/ros2/topic.h"
 #include "ident/io/rosbag2/database.h"
 

@@ -1,11 +1,12 @@
 // Compares a vehicle with what a simulator's file holds of it; an effect says itself what will be missing.
+#include "ident/io/simulators/lost.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"
-#include "ident/io/simulators/reduced.h"
 
 namespace ident {
 namespace {

@@ -1,12 +1,14 @@
 // Replaces numbers in a user's own file by their places: comments and layout stay byte for byte.
+#include "ident/io/simulators/patch.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/io/simulators/lost.h"
 #include "ident/io/simulators/reduced.h"
-#include "ident/io/simulators/simulators.h"
 
 namespace ident {
 namespace {

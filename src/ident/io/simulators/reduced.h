@@ -43,7 +43,4 @@ double full_speed(const Vehicle& vehicle);
 /// where the vehicle lacks what every simulator needs.
 Vehicle reduced(const Vehicle& vehicle, const Capacity& holds, std::string_view target);
 
-/// What the reduced vehicle lacks of the whole one, one sentence each, in the user's words.
-std::vector<std::string> lost(const Vehicle& vehicle, const Capacity& holds, std::string_view target);
-
 }  // namespace ident

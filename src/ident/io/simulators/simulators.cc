@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/core/nearest_word.h"
 #include "ident/effects/all_parameters.h"
+#include "ident/io/simulators/lost.h"
 #include "ident/io/simulators/reduced.h"
 
 namespace ident {

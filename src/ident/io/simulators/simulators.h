@@ -40,9 +40,4 @@ Values values_for(const SimulatorFormat& format, const Vehicle& vehicle, const F
 /// A new file.
 SimulatorExport export_to_simulator(const SimulatorFormat& format, const Vehicle& vehicle);
 
-/// The user's own file with the vehicle's values: nothing else changes. Throws InputError for a file of
-/// another format.
-SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string& text,
-                                const std::string& file, const Vehicle& vehicle);
-
 }  // namespace ident

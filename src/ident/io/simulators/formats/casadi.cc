@@ -16,7 +16,6 @@ def rotation(q):
         ca.horzcat(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
         ca.horzcat(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
 
-
 def rotor(p, n, Omega, v, height):
     """Thrust and drag torque; v is the air-relative velocity of the hub."""
     N = len(p["rotor_s"])
@@ -30,7 +29,6 @@ def rotor(p, n, Omega, v, height):
     T = T / (1 - near / (1 + (4 * near)**4)**0.25)
     T = T * (1 + p["thrust_curve_c"] * (x - 1) + p["thrust_curve_offset"] * (x - 1)**2 / (x**2 + 0.02))
     return T * p["rotor_ratio"][n], p["kQ"] * Omega**2 * p["rotor_ratio"][n]
-
 
 def derivative(p, q, w, v, x, Omega, Omega_dot, delta, wind=(0, 0, 0)):
     """Rates of change of q, w, v, x, Omega, Omega_dot. Body forward, right, down; world north, east, down.

@@ -1,5 +1,7 @@
 // Gazebo (gz-sim): SDF with its multicopter motor model.
 #include "ident/io/simulators/sdf/gazebo_motors.h"
+#include "ident/io/simulators/sdf/gazebo_page.h"
+#include "ident/io/simulators/sdf/sdf_fields.h"
 #include "ident/io/simulators/sdf/sdf_model.h"
 #include "ident/io/simulators/simulator_format.h"
 

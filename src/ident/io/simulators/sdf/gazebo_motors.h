@@ -23,7 +23,6 @@ Vehicle gazebo_vehicle(const Fields& fields, const GazeboDialect& dialect);
 /// Gravity of a world that states none; kT and kQ of the mean rotor.
 void gazebo_stand_in(Vehicle& reduced);
 std::vector<Value> gazebo_values(const Vehicle& vehicle, const Fields* own, const GazeboDialect& dialect);
-std::string gazebo_page(const Vehicle& vehicle, const Values& values, const GazeboDialect& dialect);
 std::vector<std::string> gazebo_remarks(const Vehicle& whole, const Vehicle& reduced,
                                         const GazeboDialect& dialect);
 

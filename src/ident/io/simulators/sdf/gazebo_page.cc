@@ -1,8 +1,9 @@
 // A whole new SDF model with a base link, rotor links, joints and motor plugins.
+#include "ident/io/simulators/sdf/gazebo_page.h"
+
 #include <fmt/format.h>
 
 #include "ident/io/simulators/mjcf/mjcf_model.h"
-#include "ident/io/simulators/sdf/gazebo_motors.h"
 
 namespace ident {
 namespace {

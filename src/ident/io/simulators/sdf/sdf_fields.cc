@@ -1,4 +1,6 @@
 // Finds links, joints and motor plugins in an SDF model, its own and those of an included one.
+#include "ident/io/simulators/sdf/sdf_fields.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include "ident/core/error.h"
 #include "ident/io/file/read_bytes.h"
 #include "ident/io/simulators/readers/xml_document.h"
-#include "ident/io/simulators/sdf/sdf_model.h"
 
 namespace ident {
 namespace {
