@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(const std::string& text) {
+std::string shell_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
@@ -34,9 +34,10 @@ std::string content(const fs::path& path) {
 ProgramRun run_ident(const std::vector<std::string>& arguments, const std::string& folder) {
   const fs::path streams = fs::path(test_folder()) / ".streams";
   fs::create_directories(streams);
-  std::string command = "cd " + quoted(folder) + " && " + quoted(IDENT_PROGRAM);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " >" + quoted((streams / "out").string()) + " 2>" + quoted((streams / "err").string());
+  std::string command = "cd " + shell_quoted(folder) + " && " + shell_quoted(IDENT_PROGRAM);
+  for (const std::string& argument : arguments) command += " " + shell_quoted(argument);
+  command +=
+      " >" + shell_quoted((streams / "out").string()) + " 2>" + shell_quoted((streams / "err").string());
   const int ended = std::system(command.c_str());
   return {.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended),
           .out = content(streams / "out"),

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "ident/core/random.h"
+#include "ident/flight/checks/vibration_in_commands.h"
 #include "ident/flight/make_record.h"
 #include "support/shaken.h"
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "ident/effects/all_parameters.h"
 #include "support/open_loop_flight.h"
 
 namespace ident {

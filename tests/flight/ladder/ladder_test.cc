@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/flight/make_record.h"
 #include "ident/flight/prepare.h"
 #include "support/known_quad.h"
 

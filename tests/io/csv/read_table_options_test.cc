@@ -7,6 +7,7 @@
 #include "ident/core/error.h"
 #include "ident/io/csv/read_table.h"
 #include "ident/io/csv/table_map.h"
+#include "ident/io/csv/table_schemas.h"
 
 namespace ident {
 namespace {

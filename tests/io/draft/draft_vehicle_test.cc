@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/io/draft/frame_geometry.h"
 #include "ident/io/vehicle/vehicle_file.h"
+#include "ident/io/vehicle/vehicle_read.h"
 
 namespace ident {
 namespace {

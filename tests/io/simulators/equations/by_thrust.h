@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "ident/io/simulators/readers/fields.h"
-#include "io/simulators/manoeuvre.h"
+#include "support/manoeuvre.h"
 
 namespace ident::test {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "ident/io/simulators/readers/fields.h"
-#include "io/simulators/manoeuvre.h"
+#include "support/manoeuvre.h"
 
 namespace ident::test {
 

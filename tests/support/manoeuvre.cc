@@ -1,5 +1,5 @@
 // Runge-Kutta over the equations of either side; motors of first order are solved exactly.
-#include "io/simulators/manoeuvre.h"
+#include "support/manoeuvre.h"
 
 #include <cmath>
 
