@@ -18,7 +18,7 @@ static_assert(std::ranges::is_sorted(kFindings, {}, &FindingInfo::stage));
 
 constexpr std::array kStageTitles = {"Reading a flight log",
                                      "Reading a table",
-                                     "Vehicle and campaign files",
+                                     "Vehicle, campaign and simulator files",
                                      "Thrust stand",
                                      "Motor steps",
                                      "Pendulum",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "ident/core/parallel.h"
 #include "ident/flight/ladder/model_along.h"
@@ -17,14 +18,13 @@ using Motors = std::array<MotorState<double>, kMaxRotors>;
 
 constexpr double kSpacing = 0.5;     // s between windows
 constexpr double kTumbling = 200.0;  // rad/s: no vehicle turns faster, and no prediction is worse than that
-constexpr double kPi = 3.14159265358979;
 
 std::size_t at(Metric metric) { return static_cast<std::size_t>(metric); }
 
 double angle_between(const Vec4<double>& a, const Vec4<double>& b) {
   const double c = std::abs(a.dot(b)) / std::max(a.norm() * b.norm(), 1e-12);
   const double angle = 2 * std::acos(std::min(c, 1.0));
-  return std::isfinite(angle) ? angle : kPi;
+  return std::isfinite(angle) ? angle : std::numbers::pi;
 }
 
 double size_of(const Vec3<double>& error, double most) {
