@@ -160,7 +160,8 @@ class Reader {
       if (is_cut() && message->type != 0 && known(message->type)) return;  // the last one, not written whole
       if (at_ + kMessageHeader + message->payload.size() > until) return;
       if (known(message->type) && !message->payload.empty()) {
-        if (!take(*message)) damage_.add(at_, message_damage(*message));
+        if (!take(*message))
+          damage_.add(at_, fmt::format("a message of type '{}' cannot be read", message->type));
         pass(*message);
       } else if (!recover(*message, until)) {
         return;
@@ -170,11 +171,6 @@ class Reader {
 
   static bool known(char type) {
     return std::string_view("DSALCIMPQOR").find(type) != std::string_view::npos;
-  }
-
-  static std::string message_damage(const Message& message) {
-    return fmt::format("a message of type '{}' and {} bytes cannot be read", message.type,
-                       message.payload.size());
   }
 
   bool take(const Message& message) {
