@@ -74,6 +74,12 @@ struct LogStreams {
       if (s.name == name) return &s;
     return nullptr;
   }
+  /// A parameter that is a whole number of at most nine digits; empty for another value.
+  std::optional<int> whole_parameter(const std::string& name) const {
+    const std::optional<double> value = parameter(name);
+    if (!value || !(*value > -1e9 && *value < 1e9)) return std::nullopt;
+    return static_cast<int>(*value);
+  }
   std::optional<double> parameter(const std::string& name) const {
     const auto at = parameters.find(name);
     return at == parameters.end() ? std::nullopt : std::optional<double>(at->second);

@@ -56,7 +56,7 @@ std::array<double, 2> spread(const FlightLog& flight, const std::vector<double>&
 }
 
 std::string px4_setting(const LogStreams& log) {
-  const int profile = static_cast<int>(log.parameter("SDLOG_PROFILE").value_or(1));
+  const int profile = log.whole_parameter("SDLOG_PROFILE").value_or(1);
   return fmt::format(
       "SDLOG_PROFILE {} (now {}): bit 3, system identification, and bit 4, high rate, log the motors' "
       "commands at full rate",
@@ -65,7 +65,7 @@ std::string px4_setting(const LogStreams& log) {
 
 std::string ardupilot_setting(const LogStreams& log) {
   constexpr int kFastAttitude = 1, kRawImu = 524288;  // bits of LOG_BITMASK
-  const int mask = static_cast<int>(log.parameter("LOG_BITMASK").value_or(176126));
+  const int mask = log.whole_parameter("LOG_BITMASK").value_or(176126);
   return fmt::format(
       "LOG_BITMASK {} (now {}): bit 0, fast attitude, and bit 19, raw IMU, log the rates' controller "
       "and the sensors at the rate of the loop",

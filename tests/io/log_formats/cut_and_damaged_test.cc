@@ -68,6 +68,18 @@ INSTANTIATE_TEST_SUITE_P(OfSamples, CutAndDamaged,
                            return name;
                          });
 
+/// Found by the fuzzer: a format that makes the number of a unit a double, out of the range of any integer.
+TEST(DamagedDataflash, UnitWithoutANumberOfOneByteIsPassedOver) {
+  const auto message = [](std::string body, std::size_t size) {
+    body.resize(size, '\0');
+    return "\xA3\x95" + body;
+  };
+  std::string bytes = message("\x80\x06\x0BUNITd", 87);
+  bytes.replace(2 + 1 + 2 + 4 + 16, 2, "Id");
+  bytes += message("\x06\xFF\xFF\xFF\xFF\xFF\xFF\xEF\x7F", 9);  // 1.8e308
+  EXPECT_NO_THROW(read_log_streams(bytes, "log"));
+}
+
 TEST(Refusals, NameWhatTheFileIsAndWhatToDo) {
   const auto expect = [](std::string_view bytes, const char* words) {
     try {

@@ -106,15 +106,15 @@ class Reader {
       use_parameter(kind.layout, message);
     else if (name == "MSG")
       facts_.take_message(text(kind.layout, "Message", message));
-    else if (name == "UNIT" && number(kind.layout, "Id", message))
-      units_.name_unit(static_cast<char>(*number(kind.layout, "Id", message)),
+    else if (name == "UNIT" && byte(kind.layout, "Id", message))
+      units_.name_unit(static_cast<char>(*byte(kind.layout, "Id", message)),
                        text(kind.layout, "Label", message));
-    else if (name == "MULT" && number(kind.layout, "Id", message))
-      units_.name_multiplier(static_cast<char>(*number(kind.layout, "Id", message)),
+    else if (name == "MULT" && byte(kind.layout, "Id", message))
+      units_.name_multiplier(static_cast<char>(*byte(kind.layout, "Id", message)),
                              number(kind.layout, "Mult", message).value_or(1.0));
-    else if (name == "FMTU" && number(kind.layout, "FmtType", message))
-      units_.assign(static_cast<int>(*number(kind.layout, "FmtType", message)),
-                    text(kind.layout, "UnitIds", message), text(kind.layout, "MultIds", message));
+    else if (name == "FMTU" && byte(kind.layout, "FmtType", message))
+      units_.assign(*byte(kind.layout, "FmtType", message), text(kind.layout, "UnitIds", message),
+                    text(kind.layout, "MultIds", message));
   }
 
   void use_parameter(const Layout& layout, std::string_view message) {
@@ -138,6 +138,12 @@ class Reader {
     PackedField there = *field;
     there.offset = 0;
     return unpack(message, {field->offset}, {there}).front().at(0);
+  }
+
+  /// A number of one byte, signed or not; empty where a damaged format makes something else of it.
+  static std::optional<int> byte(const Layout& layout, std::string_view column, std::string_view message) {
+    const std::optional<double> value = number(layout, column, message);
+    return value && *value >= -128 && *value <= 255 ? std::optional(static_cast<int>(*value)) : std::nullopt;
   }
 
   void make_stream(Kind& kind) {

@@ -54,8 +54,9 @@ double rounded(double value) { return std::round(value * 1e5) / 1e5; }  // m; pa
 }  // namespace
 
 std::optional<FrameGeometry> px4_geometry(const LogStreams& log) {
-  const int count = static_cast<int>(log.parameter("CA_ROTOR_COUNT").value_or(0));
-  if (count < 2) return std::nullopt;
+  const int count = log.whole_parameter("CA_ROTOR_COUNT").value_or(0);
+  constexpr int kMost = 12;  // CA_ROTOR11 is the last one
+  if (count < 2 || count > kMost) return std::nullopt;
   FrameGeometry geometry{.arm_is_known = true, .spin_is_known = true};
   for (int n = 0; n < count; ++n) {
     const auto value = [&](const char* what, double otherwise) {
@@ -72,10 +73,9 @@ std::optional<FrameGeometry> px4_geometry(const LogStreams& log) {
 }
 
 std::optional<FrameGeometry> ardupilot_geometry(const LogStreams& log) {
-  const auto frame_class = log.parameter("FRAME_CLASS"), frame_type = log.parameter("FRAME_TYPE");
-  const int kind =
-      static_cast<int>(frame_class.value_or(1));  // FRAME, before 3.5, was that of a quadrotor's build
-  const int type = static_cast<int>(frame_type.value_or(log.parameter("FRAME").value_or(-1)));
+  const auto frame_class = log.whole_parameter("FRAME_CLASS"), frame_type = log.whole_parameter("FRAME_TYPE");
+  const int kind = frame_class.value_or(1);  // FRAME, before 3.5, was that of a quadrotor's build
+  const int type = frame_type.value_or(log.whole_parameter("FRAME").value_or(-1));
   const auto found = frames().find({kind, type});
   if (found == frames().end()) return std::nullopt;
   FrameGeometry geometry{.spin_is_known = true};

@@ -48,7 +48,7 @@ void divide(Eigen::MatrixXd& mix, int column, double by) {
 }  // namespace
 
 std::optional<Eigen::MatrixXd> px4_mix(const LogStreams& log) {
-  const int rotors = static_cast<int>(log.parameter("CA_ROTOR_COUNT").value_or(0));
+  const int rotors = log.whole_parameter("CA_ROTOR_COUNT").value_or(0);
   if (rotors < 3 || rotors > kMostRotors) return std::nullopt;
   const Eigen::MatrixXd B = effectiveness(log, rotors);
   if (!B.allFinite()) return std::nullopt;

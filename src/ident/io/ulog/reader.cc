@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <memory>
 
 #include "ident/core/error.h"
 #include "ident/io/packed/damage.h"
 #include "ident/io/packed/little_endian.h"
+#include "ident/io/ulog/conventions.h"
 #include "ident/io/ulog/format.h"
 #include "ident/io/ulog/layout.h"
 #include "ident/io/ulog/values.h"
@@ -55,7 +55,7 @@ class Reader {
     }
     read_data(bytes_.size());
     make_streams();
-    name_firmware();
+    ulog::name_firmware(out_);
     damage_.close();
     return std::move(out_);
   }
@@ -160,7 +160,8 @@ class Reader {
       if (is_cut() && message->type != 0 && known(message->type)) return;  // the last one, not written whole
       if (at_ + kMessageHeader + message->payload.size() > until) return;
       if (known(message->type) && !message->payload.empty()) {
-        if (!take(*message)) damage_.add(at_, message_damage(*message));
+        if (!take(*message))
+          damage_.add(at_, fmt::format("a message of type '{}' cannot be read", message->type));
         pass(*message);
       } else if (!recover(*message, until)) {
         return;
@@ -170,11 +171,6 @@ class Reader {
 
   static bool known(char type) {
     return std::string_view("DSALCIMPQOR").find(type) != std::string_view::npos;
-  }
-
-  static std::string message_damage(const Message& message) {
-    return fmt::format("a message of type '{}' and {} bytes cannot be read", message.type,
-                       message.payload.size());
   }
 
   bool take(const Message& message) {
@@ -274,28 +270,9 @@ class Reader {
       stream.name = name;
       stream.fields = unpack(bytes_, topic->begins, topic->layout.fields);
       topic.reset();
-      set_clock(stream, clock_of(stream), start_, kMicrosecond);
+      set_clock(stream, ulog::clock_of(stream), start_, kMicrosecond);
       out_.streams.push_back(std::move(stream));
     }
-  }
-
-  /// ver_sw_release is major, minor, patch and type, a byte each.
-  void name_firmware() {
-    const auto at = out_.facts.find("ver_sw_release");
-    unsigned long release = 0;
-    if (at == out_.facts.end() || std::sscanf(at->second.c_str(), "%lu", &release) != 1) return;
-    out_.facts["firmware"] = fmt::format("{} v{}.{}.{}", out_.facts["sys_name"], release >> 24 & 0xFF,
-                                         release >> 16 & 0xFF, release >> 8 & 0xFF);
-  }
-
-  /// The instant of the sample, where the topic states it, else that of its publication.
-  static std::string_view clock_of(const LogStream& stream) {
-    const StreamField* sample = stream.find("timestamp_sample");
-    const StreamField* published = stream.find("timestamp");
-    if (!sample || !published) return sample ? "timestamp_sample" : "timestamp";
-    const auto* counts = std::get_if<std::vector<std::uint64_t>>(&sample->values);
-    const bool set = counts && std::ranges::all_of(*counts, [](std::uint64_t c) { return c > 0; });
-    return set ? "timestamp_sample" : "timestamp";
   }
 
   std::string_view bytes_;
