@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -69,11 +71,31 @@ TEST(FullModel, CHeaderIsTheModelWithAllEffectsOfTheBody) {
   const std::array<double, 6> c = by_the_c_compiler(made.text), ours = by_ident(made.reduced);
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(c[i], ours[i], 1e-10 * std::max(1.0, std::abs(ours[i]))) << i;
-  // Folding changes nothing about the body: the vehicle as it was, without wind, has the same rates.
-  std::erase_if(v.parameters, [](const auto& entry) { return entry.first.starts_with("wind."); });
-  const std::array<double, 6> whole = by_ident(v);
+}
+
+/// The largest difference between a vehicle's rates and those of the vehicle with its effects folded.
+double folding_error(const std::vector<std::string>& without) {
+  Vehicle v = test::vehicles_with_effects().end()[-3];
+  std::erase_if(v.parameters, [&](const auto& entry) {
+    return std::ranges::any_of(
+        without, [&](const std::string& effect) { return entry.first.starts_with(effect + "."); });
+  });
+  const std::array<double, 6> folded = by_ident(held_by(find_simulator("c99"), v)), whole = by_ident(v);
+  double most = 0;
   for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_NEAR(whole[i], ours[i], 1e-9 * std::max(1.0, std::abs(ours[i]))) << i;
+    most = std::max(most, std::abs(whole[i] - folded[i]) / std::max(1.0, std::abs(whole[i])));
+  return most;
+}
+
+// Effects folded into mass, axes and ratios leave the rates as they were. A thrust curve is about the hover
+// speed, which a payload moves; that is told (lost.cc), and left out here. Effects of the flow see the axis
+// before it is tilted in ident, after it in a file: each is looked at without the other. Tilted axes are of
+// second order in the angle in ident, and so 1 + angle^4/8 long: 3e-7 at 0.04 rad.
+TEST(FullModel, FoldingEffectsChangesNothingAboutTheBody) {
+  EXPECT_LT(folding_error({"wind", "thrust_curve", "rotor_tilt"}), 1e-11);
+  EXPECT_LT(folding_error({"wind", "thrust_curve", "rotor_drag", "axial_inflow", "translational_lift",
+                           "blade_flapping"}),
+            1e-5);
 }
 
 }  // namespace

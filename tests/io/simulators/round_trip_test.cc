@@ -87,6 +87,7 @@ TEST_P(EveryTarget, PatchedFileIsThatOfTheOtherVehicle) {
 
 TEST_P(EveryTarget, SaysWhatItLeavesOut) {
   Vehicle v = test::plain_quadrotor();
+  v.propeller_radius = 0.1;                // AirSim's coefficients need it
   v.parameters["wind.north"] = {3.0, {}};  // the one effect that no model of a vehicle holds
   const bool all = format().holds.everything;
   const std::vector<std::string> lost = export_to_simulator(format(), v).lost;

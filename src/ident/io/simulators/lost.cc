@@ -55,6 +55,13 @@ void lost_effects(const Vehicle& v, const Capacity& holds, std::vector<std::stri
 
 void lost_of_the_body(const Vehicle& v, const Capacity& holds, std::vector<std::string>& out) {
   const MassProperties body = mass_properties(v);
+  const bool curved =
+      holds.constants.contains("thrust_curve.c") && !stated(v, entry(EffectId::thrust_curve)).empty();
+  if (curved && body.m != v.value("m"))
+    out.push_back(
+        fmt::format("the thrust curve is taken about hover with {:.4g} kg, and was stated about hover with "
+                    "{:.4g} kg: refine it with the mass as it flies",
+                    body.m, v.value("m")));
   if (!holds.products && !body.J.isDiagonal(0.0))
     out.push_back(fmt::format(
         "products of inertia are left out (Jxy {:.4g}, Jxz {:.4g}, Jyz {:.4g} kg m^2): axes will not "
