@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/effects/all_parameters.h"
+#include "ident/effects/catalogue.h"
 
 namespace ident {
 namespace {
