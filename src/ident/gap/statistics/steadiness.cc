@@ -30,15 +30,16 @@ Series series_of(const ResidualWrench& w, Eigen::Index channel, int log) {
   return out;
 }
 
-// Correlation of the squares of neighbours: what a burst does to the number of independent samples.
-double carried_over(const std::vector<double>& y, double variance) {
-  double sum = 0, all = 0;
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    const double here = y[k] * y[k] - variance;
-    all += here * here;
-    if (k > 0) sum += here * (y[k - 1] * y[k - 1] - variance);
-  }
-  return all > 0 ? std::clamp(sum / all, 0.0, 0.99) : 0.0;
+// Correlation of neighbours by their signs, to which it does not matter how large a burst is: of a normal
+// process with correlation rho they agree with a probability of 1/2 + asin(rho)/pi.
+double carried_over(const std::vector<double>& y) {
+  std::vector<double> sorted = y;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  double agree = 0;
+  for (std::size_t k = 1; k < y.size(); ++k) agree += (y[k] - *middle) * (y[k - 1] - *middle) > 0;
+  const double share = agree / static_cast<double>(y.size() - 1);
+  return std::clamp(std::sin(M_PI * (share - 0.5)), 0.0, 0.99);
 }
 
 // Of n independent samples of a normal process the kurtosis is 3 with a variance of 24/n; its logarithm is
@@ -49,7 +50,8 @@ std::optional<Unsteady> judged(const Series& s, const std::string& channel, int 
   double second = 0, fourth = 0;
   for (const double y : s.y) second += y * y / n, fourth += y * y * y * y / n;
   if (!(second > 0)) return {};
-  const double carried = carried_over(s.y, second), independent = n * (1 - carried) / (1 + carried);
+  // Squares of a normal process are correlated by the square of its own correlation.
+  const double carried = std::pow(carried_over(s.y), 2), independent = n * (1 - carried) / (1 + carried);
   Unsteady out{channel, log, fourth / (second * second)};
   out.deviations = std::log(out.kurtosis / 3) / (std::sqrt(24 / independent) / 3);
   std::map<int, double> power;
