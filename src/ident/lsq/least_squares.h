@@ -55,6 +55,8 @@ struct LeastSquaresProblem {
   std::vector<NoiseGroup> groups;            ///< empty: one
   std::vector<ResidualSeries> series;        ///< empty: one, all residuals
   std::vector<Eigen::VectorXd> more_starts;  ///< physical values, besides Unknown::start
+  /// Residuals that are left out until noise is known, then judged as all others; empty: none.
+  std::vector<bool> suspects = {};
 };
 
 struct LeastSquaresOptions {

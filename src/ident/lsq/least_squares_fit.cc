@@ -52,6 +52,8 @@ class Fitter {
 
   LeastSquaresFit run() {
     start();
+    // One gross error would else widen the noise by so much that it is none.
+    if (options_.robust && !problem_.suspects.empty()) rejected_ = problem_.suspects;
     bool search_order = true;
     for (int round = 0; round < kMostRounds; ++round) {
       const LinearisedRows rows = linearised();
@@ -178,9 +180,9 @@ class Fitter {
     whiten(problem_.series, noise_, rejected_, weighted);
     for (Eigen::Index i = 0; i < weighted.rows(); ++i)
       if (rejected_[static_cast<std::size_t>(i)]) weighted.row(i).setZero();
-    if (getenv("WTB")) { fprintf(stderr, "J finite %d weighted %d r %d x ", J.allFinite(), weighted.allFinite(), r.allFinite()); for (double v : x_) fprintf(stderr, "%g ", v); for (auto& g : noise_) fprintf(stderr, "| s %g o %ld ", g.sigma, (long)g.colour.order()); fprintf(stderr, " rej %ld\n", (long)std::ranges::count(rejected_, true)); }
     if (!weighted.allFinite())
-      throw DataError("the fit ends where its equations have no finite derivative: the data do not fit the model");
+      throw DataError(
+          "the fit ends where its equations have no finite derivative: the data do not fit the model");
     directions_ = determined_directions(weighted, options_.rank_tolerance);
     return {.J = J * directions_.determined, .r = std::move(r), .missing = rejected_};
   }

@@ -87,7 +87,7 @@ void judge_transients(Result& result, const MotorFit& motor) {
   if (share < kWorthSaying) return;
   result.warn(
       "transient_misfit",
-      fmt::format("on the way from level to level the speed misses the motor's equation by {:.2g} % of the "
+      fmt::format("on its way from level to level the speed misses the motor's equation by {:.2g} % of the "
                   "way that is left, settled rows by {:.2g} rad/s: deviations of omega_m and zeta_m are "
                   "widened accordingly",
                   100.0 * share, motor.transients.sigma));

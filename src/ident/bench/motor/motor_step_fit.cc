@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "ident/bench/motor/motor_step_edges.h"
 #include "ident/bench/motor/motor_step_problem.h"
-#include "ident/bench/motor/motor_step_scale.h"
 #include "ident/core/statistics.h"
 
 namespace ident {
@@ -17,10 +17,9 @@ namespace {
 constexpr double kEvident =
     12.0;  // less of BIC that a richer static curve has to earn: four standard deviations
 constexpr std::size_t kMostPlateaus = 80, kFewestRowsOfAPlateau = 10;
-constexpr double kFarOff = 4.0;     // standard deviations
-constexpr double kAnyEdge = 0.1;    // s, scatter of single dead times before anything is known of them
-constexpr double kSameShare = 0.2;  // relative change of a transient's error that is not worth another fit
-constexpr int kRowsInARow = 4;      // outliers come one by one
+constexpr double kFarOff = 4.0;   // standard deviations
+constexpr double kAnyEdge = 0.1;  // s, scatter of single dead times before anything is known of them
+constexpr int kRowsInARow = 4;    // outliers come one by one
 
 std::size_t count_levels(const std::vector<StepRecord>& records) {
   std::set<double> levels;
@@ -64,8 +63,7 @@ std::vector<MotorShape> promising_shapes(const std::vector<StepRecord>& records,
 /// Does a simpler curve, with the shape that a richer one gave, miss by so much that a fit of it is not
 /// needed?
 bool is_far_off(const std::vector<StepRecord>& records, const MotorFreedom& freedom, const MotorFit& richer) {
-  const Eigen::VectorXd r =
-      MotorProblem(records, freedom, richer.scales).start(richer.shape, richer.shifts).residuals;
+  const Eigen::VectorXd r = MotorProblem(records, freedom).start(richer.shape, richer.shifts).residuals;
   return mad_scale({r.data(), static_cast<std::size_t>(r.size())}) > kFarOff * richer.fit.noise[0].sigma;
 }
 
@@ -94,46 +92,61 @@ const LeastSquaresOptions kFull{.search_widely = false},
 /// What fits of one set of records share.
 struct Fitting {
   const std::vector<StepRecord>& records;
-  std::vector<double> ways;  ///< see motor_step_scale.h; empty without plateaus
+  MovingRows rows = {};           ///< empty without plateaus
+  std::vector<bool> spikes = {};  ///< left out of plain fits
 
   MotorFit fitted(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
-                  const std::vector<double>& shifts, const std::vector<double>& scales,
-                  const LeastSquaresOptions& options) const {
-    const MotorProblem problem(records, freedom, scales);
+                  const std::vector<double>& shifts, const LeastSquaresOptions& options) const {
+    const std::vector<bool> none;
+    const MotorProblem problem(records, freedom, options.robust ? none : spikes,
+                               options.robust ? spikes : none);
     std::vector<Eigen::VectorXd> starts;
     for (const MotorShape& shape : shapes) starts.push_back(problem.start(shape, shifts).x);
     return problem.solve(starts, options);
   }
 
-  TransientError error_of(const MotorFit& motor) const {
+  /// Plain least squares, with the deviations of motor_step_misfit.h.
+  MotorFit plain(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                 const std::vector<double>& shifts) const {
+    MotorFit motor = fitted(freedom, shapes, shifts, kPlain);
     std::vector<double> residuals;
     for (const StepRecord& record : records)
       for (const double Omega : record.Omega) residuals.push_back(motor.predicted[residuals.size()] - Omega);
-    return transient_error(residuals, ways);
-  }
-
-  /// How far transients are off the best that plain least squares can do: with noise of the plateaus as scale
-  /// they would be outliers, and then nothing would hold them. Also a start.
-  MotorFit plain(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
-                 const std::vector<double>& shifts) const {
-    MotorFit motor = fitted(freedom, shapes, shifts, {}, kPlain);
-    motor.transients = error_of(motor);
+    motor.transients = transient_misfit(residuals, rows);
+    if (motor.transients.share > 0.0) widen(motor, MotorProblem(records, freedom, spikes));
     return motor;
   }
 
-  /// The fit with the scales of its rows. What lies off because of outliers in the plain fit comes down.
-  MotorFit scaled(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
-                  const std::vector<double>& shifts) const {
-    if (ways.empty()) return fitted(freedom, shapes, shifts, {}, kFull);
-    const MotorFit start = plain(freedom, shapes, shifts);
-    TransientError error = start.transients;
-    MotorFit motor = fitted(freedom, {start.shape}, start.shifts, row_scales(error, ways), kFull);
-    motor.transients = error;
-    const TransientError own = error_of(motor);
-    if (error.share == 0.0 || own.share > (1.0 - kSameShare) * error.share) return motor;
-    motor = fitted(freedom, {motor.shape}, motor.shifts, row_scales(own, ways), kFull);
-    motor.transients = own;
-    return motor;
+  /// Robust, with noise of any colour, where transients obey the motor's equation to the noise; else plain.
+  MotorFit best(const MotorFreedom& freedom, const std::vector<MotorShape>& shapes,
+                const std::vector<double>& shifts) const {
+    if (rows.step.empty()) return fitted(freedom, shapes, shifts, kFull);
+    MotorFit motor = plain(freedom, shapes, shifts);
+    if (motor.transients.share > 0.0) return motor;
+    return fitted(freedom, {motor.shape}, motor.shifts, kFull);
+  }
+
+ private:
+  void widen(MotorFit& motor, const MotorProblem& problem) const {  // (1)
+    std::vector<double> moving;
+    for (std::size_t i = 0; i < rows.step.size(); ++i)
+      if (const double r = motor.fit.residuals(static_cast<Eigen::Index>(i));
+          rows.step[i] > 0.0 && !spikes[i])
+        moving.push_back(r);
+    const std::vector<double> rho = autocorrelation(moving, 1);
+    const double r = rho.size() > 1 ? std::clamp(rho[1], 0.0, 1.0) : 0.0;
+    // At most all rows of one transient say the same.
+    const double longest = static_cast<double>(moving.size()) / static_cast<double>(count_steps(records));
+    motor.widening = std::clamp((1.0 + r) / std::max(1.0 - r, 1e-9), 1.0, std::max(1.0, longest));
+    const double variance = motor.fit.noise[0].sigma * motor.fit.noise[0].sigma;
+    const Eigen::MatrixXd H = motor.fit.determined_covariance / variance;
+    const Eigen::MatrixXd added = motor.widening * H * problem.squares(motor.fit.x) * H;
+    motor.fit.determined_covariance += added;
+    for (Eigen::Index i = 0; i < added.rows(); ++i)
+      for (Eigen::Index k = 0; k < added.cols(); ++k)
+        if (std::isfinite(motor.fit.covariance(i, i)) && std::isfinite(motor.fit.covariance(k, k)))
+          motor.fit.covariance(i, k) += added(i, k);
+    motor.dead_time = fitted_parameter(motor.fit, "dead_time", "s", "motor");
   }
 };
 
@@ -146,30 +159,35 @@ bool has_both_directions(const std::vector<StepRecord>& records) {
 
 /// Standard deviation of the edges' own dead times beyond what noise makes of them; 0 where that is all.
 double edge_scatter(const MotorFit& motor) {
-  double squares = 0.0, from_noise = 0.0;
-  for (std::size_t e = 0; e < motor.shifts.size(); ++e) {
-    const double std = motor.fit.std(fmt::format("shift_{}", e));
+  const auto steps = static_cast<Eigen::Index>(motor.shifts.size());
+  const Eigen::Index first = motor.fit.index("shift_0");
+  const double middle = mean(motor.shifts);
+  double squares = 0.0, from_noise = 0.0, seen = 0.0;
+  for (Eigen::Index e = 0; e < steps; ++e) {
+    // What all have in common is the dead time's.
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(motor.fit.x.size());
+    own.segment(first, steps).setConstant(-1.0 / static_cast<double>(steps));
+    own(first + e) += 1.0;
+    const double std = motor.fit.std_of(own), shift = motor.shifts[static_cast<std::size_t>(e)] - middle;
     if (!(std < 0.5 * kAnyEdge)) continue;  // a step in which nothing was seen
-    squares += motor.shifts[e] * motor.shifts[e];
-    from_noise += std * std;
+    squares += shift * shift, from_noise += std * std, seen += 1.0;
   }
-  const double freedom = std::max(1.0, static_cast<double>(motor.shifts.size()) - 1.0);
-  return squares > 2.0 * from_noise ? std::sqrt((squares - from_noise) / freedom) : 0.0;
+  return seen > 1.0 && squares > 2.0 * from_noise ? std::sqrt((squares - from_noise) / (seen - 1.0)) : 0.0;
 }
 
 /// The fit with all that may be free, and whether edges have dead times of their own.
 MotorFit richest_fit(const Fitting& fitting, MotorFreedom freedom, const std::vector<MotorShape>& shapes) {
-  MotorFit best = fitting.scaled(freedom, shapes, {});
-  if (fitting.ways.empty()) return best;
+  MotorFit common = fitting.best(freedom, shapes, {});
+  if (fitting.rows.step.empty()) return common;
   MotorFreedom any = freedom;
   any.edge_scatter = kAnyEdge;
   std::vector<MotorShape> near = shapes;
-  near.insert(near.begin(), best.shape);
+  near.insert(near.begin(), common.shape);
   const MotorFit look = fitting.plain(any, near, {});
   freedom.edge_scatter = edge_scatter(look);
-  if (freedom.edge_scatter == 0.0) return best;
-  MotorFit apart = fitting.scaled(freedom, {look.shape}, look.shifts);
-  return apart.criterion + kEvident < best.criterion ? apart : best;
+  if (freedom.edge_scatter == 0.0) return common;
+  MotorFit apart = fitting.best(freedom, {look.shape}, look.shifts);
+  return apart.fit.bic + kEvident * apart.widening < common.fit.bic ? apart : common;
 }
 
 /// The fit again with no dead time; how well it is known is taken from the fit in which it was free.
@@ -177,40 +195,46 @@ MotorFit without_dead_time(const Fitting& fitting, const MotorFit& free) {
   const MotorFreedom freedom{
       .curve = free.curve, .dead_time = DeadTime::zero, .edge_scatter = free.edge_scatter};
   const MotorShape shape{free.shape.omega_m, free.shape.zeta_m, 0.0};
-  MotorFit motor = fitting.fitted(freedom, {shape}, free.shifts, free.scales, kFull);
+  MotorFit motor = fitting.best(freedom, {shape}, free.shifts);
   motor.shape.dead_time = 0.0;
   motor.negative_dead_time = motor.dead_time = free.dead_time;
   motor.dead_time.value = 0.0;
   motor.dead_time.ci95 = {0.0, free.dead_time.ci95[1] - free.dead_time.value};
-  motor.transients = free.transients;
   return motor;
+}
+
+Fitting fitting_of(const std::vector<StepRecord>& records) {
+  Fitting fitting{.records = records};
+  if (!has_plateaus(records)) return fitting;
+  fitting.rows = moving_rows(records);
+  fitting.spikes = lone_spikes(records, fitting.rows.noise);
+  return fitting;
 }
 
 }  // namespace
 
 MotorFit fit_motor(const std::vector<StepRecord>& records, const std::optional<MotorShape>& near) {
   const std::vector<StaticCurve> curves = possible_curves(records);
-  Fitting fitting{.records = records};
-  if (has_plateaus(records)) fitting.ways = ways_to_go(records);
+  const Fitting fitting = fitting_of(records);
   MotorFreedom freedom{.curve = curves.back()};
-  if (!fitting.ways.empty() && has_both_directions(records)) freedom.directions = SpinDirections::apart;
+  if (!fitting.rows.step.empty() && has_both_directions(records)) freedom.directions = SpinDirections::apart;
   MotorFit best = richest_fit(fitting, freedom, starting_shapes(records, curves.back(), near));
   freedom.edge_scatter = best.edge_scatter;
-  const MotorFit richest = best;
+  const MotorShape shape = best.shape;
+  const std::vector<double> shifts = best.shifts;
   for (std::size_t i = curves.size() - 1; i-- > 0;) {
     freedom.curve = curves[i];
     if (is_far_off(records, freedom, best)) continue;
-    MotorFit simpler = fitting.fitted(freedom, {richest.shape}, richest.shifts, richest.scales, kFull);
-    simpler.transients = richest.transients;
-    if (simpler.criterion <= best.criterion + kEvident) best = std::move(simpler);
+    MotorFit simpler = fitting.best(freedom, {shape}, shifts);
+    if (simpler.fit.bic <= best.fit.bic + kEvident * best.widening) best = std::move(simpler);
   }
   if (freedom.directions == SpinDirections::apart) {
     freedom.curve = best.curve;
     freedom.directions = SpinDirections::alike;
-    MotorShape shape = best.shape;  // between up and down
-    shape.omega_m *= std::sqrt(shape.down_ratio);
-    shape.down_ratio = 1.0;
-    best = fitting.scaled(freedom, {shape}, best.shifts);
+    MotorShape between = best.shape;  // up and down
+    between.omega_m *= std::sqrt(between.down_ratio);
+    between.down_ratio = 1.0;
+    best = fitting.best(freedom, {between}, best.shifts);
   }
   return best.shape.dead_time < 0.0 ? without_dead_time(fitting, best) : best;
 }
@@ -218,18 +242,16 @@ MotorFit fit_motor(const std::vector<StepRecord>& records, const std::optional<M
 MotorFit guess_motor(const std::vector<StepRecord>& records, const std::optional<MotorShape>& near) {
   const StaticCurve curve = possible_curves(records).back();
   const Fitting fitting{.records = records};
-  return fitting.fitted({.curve = curve}, starting_shapes(records, curve, near), {}, {}, kQuick);
+  return fitting.fitted({.curve = curve}, starting_shapes(records, curve, near), {}, kQuick);
 }
 
 std::optional<MotorFit> fit_motor_directions(const std::vector<StepRecord>& records, const MotorFit& alike) {
   if (!has_both_directions(records)) return std::nullopt;
-  Fitting fitting{.records = records};
-  if (has_plateaus(records)) fitting.ways = ways_to_go(records);
   const MotorFreedom freedom{.curve = alike.curve,
                              .directions = SpinDirections::apart,
                              .dead_time = alike.negative_dead_time ? DeadTime::zero : DeadTime::free,
                              .edge_scatter = alike.edge_scatter};
-  return fitting.scaled(freedom, {alike.shape}, alike.shifts);
+  return fitting_of(records).best(freedom, {alike.shape}, alike.shifts);
 }
 
 bool contradicts(const StepRecord& record, const MotorFit& motor) {

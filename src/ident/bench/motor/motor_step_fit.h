@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "ident/bench/motor/motor_step_misfit.h"
 #include "ident/bench/motor/motor_step_model.h"
-#include "ident/bench/motor/motor_step_scale.h"
 #include "ident/lsq/least_squares.h"
 
 namespace ident {
@@ -34,9 +34,8 @@ struct MotorFit {
   std::vector<double> predicted;  ///< at the rows of all records, one after the other
   double edge_scatter = 0.0;      ///< s, of the dead times of single edges; 0: one for all
   std::vector<double> shifts;     ///< of each edge after the first, s beyond the dead time
-  std::vector<double> scales;     ///< of the rows: 1 settled, more where a transient misses the equation
-  TransientError transients;      ///< of which they come
-  double criterion = 0.0;         ///< information criterion, for fits with whatever scales
+  TransientMisfit transients;
+  double widening = 1.0;  ///< of variances, for residuals of transients that go together
 };
 
 /// The simplest static curve that the data do not contradict (information criterion), with the motor's shape.

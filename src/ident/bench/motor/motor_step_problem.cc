@@ -41,8 +41,11 @@ Eigen::MatrixXd inputs_of(const StepRecord& record, StaticCurve curve, Eigen::In
 }  // namespace
 
 MotorProblem::MotorProblem(const std::vector<StepRecord>& records, const MotorFreedom& freedom,
-                           std::vector<double> scales)
-    : records_(records), freedom_(freedom), coefficients_(count_coefficients(freedom.curve, records)) {
+                           const std::vector<bool>& left_out, const std::vector<bool>& suspects)
+    : records_(records),
+      freedom_(freedom),
+      coefficients_(count_coefficients(freedom.curve, records)),
+      suspects_(suspects) {
   Eigen::Index plateau = 0;
   for (const StepRecord& record : records) {
     inputs_.push_back(inputs_of(record, freedom.curve, coefficients_));
@@ -57,7 +60,8 @@ MotorProblem::MotorProblem(const std::vector<StepRecord>& records, const MotorFr
   for (const StepRecord& record : records)
     for (const double Omega : record.Omega) measured_(row++) = Omega;
   weights_ = Eigen::VectorXd::Ones(samples_);
-  for (std::size_t i = 0; i < scales.size(); ++i) weights_(static_cast<Eigen::Index>(i)) = 1.0 / scales[i];
+  for (std::size_t i = 0; i < left_out.size(); ++i)
+    if (left_out[i]) weights_(static_cast<Eigen::Index>(i)) = 0.0;
 }
 
 MotorShape MotorProblem::shape(const Eigen::VectorXd& x) const {
@@ -149,6 +153,8 @@ LeastSquaresProblem MotorProblem::problem(const std::vector<Eigen::VectorXd>& st
     row = p.series.back().end;
   }
   p.series.push_back({.begin = row, .end = row + known, .group = 1});
+  p.suspects = suspects_;
+  if (!p.suspects.empty()) p.suspects.resize(static_cast<std::size_t>(p.residuals), false);
   p.evaluate = [this, zero](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     Eigen::VectorXd Omega(samples_);
     predict(x, Omega, J);
@@ -170,6 +176,14 @@ LeastSquaresProblem MotorProblem::problem(const std::vector<Eigen::VectorXd>& st
   return p;
 }
 
+Eigen::MatrixXd MotorProblem::squares(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd Omega(samples_);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(samples_, unknowns());
+  predict(x, Omega, &J);
+  const Eigen::MatrixXd rows = weights_.cwiseProduct(Omega - measured_).asDiagonal() * J;
+  return rows.transpose() * rows;
+}
+
 MotorFit MotorProblem::solve(const std::vector<Eigen::VectorXd>& starts,
                              const LeastSquaresOptions& options) const {
   MotorFit result{.curve = freedom_.curve, .fit = solve_least_squares(problem(starts), options)};
@@ -180,10 +194,11 @@ MotorFit MotorProblem::solve(const std::vector<Eigen::VectorXd>& starts,
   result.predicted.assign(Omega.begin(), Omega.end());
   result.edge_scatter = freedom_.edge_scatter;
   for (Eigen::Index e = 0; e < shifts(); ++e) result.shifts.push_back(result.fit.x(shift_at(0) + e));
-  // Rows count with their own scale, so that fits with other scales can be compared.
-  result.criterion = result.fit.bic - 2.0 * weights_.array().log().sum();
-  result.scales.assign(weights_.begin(), weights_.end());
-  for (double& scale : result.scales) scale = 1.0 / scale;
+  for (Eigen::Index i = 0; i < samples_; ++i) {
+    if (weights_(i) > 0.0) continue;
+    result.fit.rejected[static_cast<std::size_t>(i)] = true;
+    result.fit.standardized(i) = kNaN;
+  }
   return result;
 }
 

@@ -20,16 +20,19 @@ struct MotorFreedom {
 /// record, shifts of the edges. The records have to outlive it.
 class MotorProblem {
  public:
-  /// `scales` of the rows (motor_step_scale.h); empty: all alike.
+  /// `left_out`: rows that do not count; `suspects`: rows that may not, for a robust fit; empty: none.
   MotorProblem(const std::vector<StepRecord>& records, const MotorFreedom& freedom,
-               std::vector<double> scales = {});
+               const std::vector<bool>& left_out = {}, const std::vector<bool>& suspects = {});
 
   /// Start with that shape and, where edges are free, those shifts: everything else is linear.
   struct Start {
     Eigen::VectorXd x;
-    Eigen::VectorXd residuals;  ///< model minus measurement, rad/s, each over the scale of its row
+    Eigen::VectorXd residuals;  ///< model minus measurement, rad/s, 0 in rows that are left out
   };
   Start start(const MotorShape& shape, const std::vector<double>& shifts = {}) const;
+
+  /// sum of r_i^2 J_i J_i' over the rows, J by the physical unknowns.
+  Eigen::MatrixXd squares(const Eigen::VectorXd& x) const;
 
   MotorFit solve(const std::vector<Eigen::VectorXd>& starts,
                  const LeastSquaresOptions& options = {.search_widely = false}) const;
@@ -54,7 +57,8 @@ class MotorProblem {
   const std::vector<StepRecord>& records_;
   MotorFreedom freedom_;
   Eigen::Index coefficients_ = 0, samples_ = 0, steps_ = 0;
-  Eigen::VectorXd weights_;  ///< of the rows, one over their scale
+  std::vector<bool> suspects_;
+  Eigen::VectorXd weights_;  ///< of the rows, 1 or 0
   std::vector<Eigen::MatrixXd> inputs_;
   std::vector<Eigen::Index> first_coefficient_, first_shift_;
   Eigen::VectorXd measured_;

@@ -193,7 +193,8 @@ class Loop {
   void finish() {
     for (const Warning& warning : csv_.warnings()) table_.warnings.push_back(warning);
     for (const Warning& warning : numbers_.warnings(path_)) table_.warnings.push_back(warning);
-    table_.notices = csv_.notices();
+    const std::vector<std::string> of_file = csv_.notices();
+    table_.notices.insert(table_.notices.begin(), of_file.begin(), of_file.end());
     if (numbers_.used_decimal_comma() && csv_.dialect().decimal != DecimalMark::comma)
       table_.notices.push_back(path_ + ": decimal comma");
     if (!clock_seen_) return;
