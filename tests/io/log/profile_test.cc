@@ -6,6 +6,7 @@
 
 #include "ident/core/error.h"
 #include "ident/io/log/log_map.h"
+#include "ident/io/log/profile_texts.h"
 #include "ident/io/log/profiles.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/log_formats/read_log_streams.h"

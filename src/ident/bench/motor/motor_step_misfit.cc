@@ -15,10 +15,10 @@ constexpr double kMedianOfNormal = 0.674489750196082;  // of |x|
 constexpr double kSettled = 3.0;                       // noise levels within which a row has settled
 constexpr std::size_t kFewestRows = 10;                // of either kind
 constexpr double kMadSpread = 1.17;  // relative standard deviation of a MAD scale times sqrt(n), normal noise
-constexpr double kResolution = 1e-6;  // of the largest step: no speed is known better
-constexpr double kEvident = 4.0;      // standard deviations
-constexpr double kStandsOut = 3.0;    // ranges of its four neighbours that a spike lies off
-constexpr double kSpan = 2.06;        // range of four normal values
+constexpr double kResolution = 1e-6;    // of the largest step: no speed is known better
+constexpr double kEvidentMisfit = 4.0;  // standard deviations
+constexpr double kStandsOut = 3.0;      // ranges of its four neighbours that a spike lies off
+constexpr double kSpan = 2.06;          // range of four normal values
 
 }  // namespace
 
@@ -59,7 +59,7 @@ TransientMisfit transient_misfit(std::span<const double> residuals, const Moving
   TransientMisfit misfit{.sigma = std::clamp(mad_scale(settled, 0.0), 0.5 * rows.noise, rows.noise)};
   const double chance = kMadSpread * std::sqrt(1.0 / static_cast<double>(moving.size()) +
                                                1.0 / static_cast<double>(settled.size()));
-  if (median(moving) > kMedianOfNormal * misfit.sigma * (1.0 + kEvident * chance))
+  if (median(moving) > kMedianOfNormal * misfit.sigma * (1.0 + kEvidentMisfit * chance))
     misfit.share = median(shares) / kMedianOfNormal;
   return misfit;
 }

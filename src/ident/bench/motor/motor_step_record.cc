@@ -17,7 +17,7 @@ namespace {
 constexpr double kPauseIntervals = 50.0;  // a pause is as long as so many usual intervals, and over a second
 constexpr double kShortestPause = 1.0;    // s
 constexpr double kLongestInterval = 1.0;  // s between rows in which an answer can be seen
-constexpr std::size_t kFewestRows = 12;
+constexpr std::size_t kFewestRowsRecord = 12;
 constexpr std::size_t kSmoothingRows = 100;  // to either side
 
 /// Refuses what no motor's answer can be seen in.
@@ -109,7 +109,7 @@ std::vector<StepRecord> step_records(const NumberTable& table, const std::option
   std::vector<double> t, delta;  // of every row of the recording, measured or not
   StepRecord record{.file = table.file};
   const auto finish = [&] {
-    if (record.rows() >= kFewestRows) {
+    if (record.rows() >= kFewestRowsRecord) {
       record.edges = edges_of(t, delta);
       records.push_back(record);
     }

@@ -10,6 +10,7 @@
 #include "ident/core/error.h"
 #include "ident/io/blackbox/derived_settings.h"
 #include "ident/io/blackbox/header.h"
+#include "ident/io/blackbox/header_checks.h"
 #include "ident/io/blackbox/log_decoder.h"
 #include "ident/io/blackbox/log_recorder.h"
 #include "ident/io/blackbox/settings.h"

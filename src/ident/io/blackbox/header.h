@@ -48,7 +48,4 @@ struct Header {
 /// default.
 Header read_header(std::span<const std::uint8_t> log);
 
-/// Why frames of this header cannot be decoded; empty where they can.
-std::string reason_against(const Header& header);
-
 }  // namespace ident::blackbox

@@ -1,8 +1,9 @@
 // Says why the frames of a blackbox header cannot be decoded, before any is tried.
+#include "ident/io/blackbox/header_checks.h"
+
 #include <fmt/format.h>
 
 #include "ident/io/blackbox/frame_decoder.h"
-#include "ident/io/blackbox/header.h"
 
 namespace ident::blackbox {
 

@@ -1,13 +1,13 @@
 // Finds profiles and lays a user's map over them.
 #include "ident/io/log/profiles.h"
 
-#include "ident/io/log/log_map.h"
-
 #include <algorithm>
 #include <string>
 
 #include "ident/core/error.h"
+#include "ident/io/log/log_map.h"
 #include "ident/io/log/log_signals.h"
+#include "ident/io/log/profile_texts.h"
 
 namespace ident {
 namespace {

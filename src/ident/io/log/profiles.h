@@ -11,12 +11,6 @@
 
 namespace ident {
 
-/// A file of data/profiles, which is part of the library.
-struct ProfileText {
-  std::string_view name, text;
-};
-std::span<const ProfileText> profile_texts();
-
 /// The profile of a format with a user's map laid over it line by line: a signal that the user names, or says
 /// is not to be read, is his. Without a profile the user's map alone. Throws UsageError where there is
 /// neither.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 #include "ident/io/simulators/reduced.h"
 #include "ident/io/simulators/value.h"
 #include "ident/model/vehicle.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 #include "support/manoeuvre.h"
 
 namespace ident::test {

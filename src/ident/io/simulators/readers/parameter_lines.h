@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 
 namespace ident {
 

@@ -14,7 +14,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/parse_number.h"
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 
 namespace ident {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 
 namespace ident {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 
 namespace ident {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ident/io/simulators/capacity.h"
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 #include "ident/io/simulators/value.h"
 #include "ident/model/vehicle.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 #include "ident/io/simulators/reduced.h"
 
 namespace ident {

@@ -1,5 +1,5 @@
 // Numbers in a text by their places.
-#include "ident/io/simulators/readers/fields.h"
+#include "ident/io/simulators/fields.h"
 
 #include <fmt/format.h>
 
