@@ -79,9 +79,11 @@ Discrepancy discrepancy(const Rest& rest) {
       "a part that the flight itself predicts, most in " + rest.rival.strongest());
   add_lines(out, rest);
   add_jumps(out, rest);
-  add_unsteady(out, rest);
+  // These two only say that something is left, not what: a cause whose form is nearly right leaves as much.
+  const bool material = !(rest.left < kMaterial);
+  if (material) add_unsteady(out, rest);
   const double ratio = rest.gap.after / rest.gap.floor;
-  if (std::isfinite(ratio))
+  if (material && std::isfinite(ratio))
     add(out, log_odds_at((ratio - 1) / kFloorKnown),
         fmt::format("{} times the noise of sensors and air on held-out flight", format_number(ratio, 2)));
   std::ranges::stable_sort(out.signs, std::greater<>(), &Sign::log_odds);

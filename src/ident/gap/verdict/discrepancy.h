@@ -22,6 +22,7 @@ struct Rest {
   /// What the causes found gain, each beside the others, and what their forms leave of that to a regression.
   double explained = 0, by_form = 0;
   bool of_drive = false;  ///< a cause of the drive or of the motors is among them
+  double left = 1;        ///< share of the gap that the causes found leave
 };
 
 /// One thing that gusts do not do.

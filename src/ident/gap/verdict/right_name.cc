@@ -138,7 +138,7 @@ NameEvidence evidence_of(const std::string& name, const NamesSeen& seen) {
 double probability_right(const NameEvidence& x) {
   // Of thrust over voltage (level_thrust.h): in 1253 cases it was right in all five in which it was plain.
   if (x.seen) return 0.95;
-  // tests/withheld/calibrate_verdict.py
+  // Set by hand; tests/withheld/calibrate_verdict.py fits them to a bank of flights.
   constexpr double kBase = 3.0, kLeft = -1.0, kVaries = -1.0, kCloses = 1.0, kBeside = -0.5, kBeyond = -3.0,
                    kNone = -3.0;
   const double odds = kBase + kLeft * std::max(x.left, 0.0) + kVaries * std::max(x.varies, -1.0) +

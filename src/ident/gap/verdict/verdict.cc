@@ -54,6 +54,13 @@ std::vector<JudgedCause> causes_of(const Seen& seen) {
   return out;
 }
 
+// Whether a cause closes some of the gap of held-out flight beyond chance, in a set that closes some of it.
+// What does not is no cause of the gap, whatever its evidence on the flight that it was fitted to.
+bool closes_some(const JudgedCause& cause, const GapShares& shares) {
+  if (cause.evidence.seen || !std::isfinite(cause.share.value)) return true;
+  return cause.share.ci95[0] > 0 && shares.remaining.value < 1;
+}
+
 // What the causes named leave: of those found the others are part of it.
 Share left_by(const std::vector<std::string>& named, const GapShares& shares) {
   Share out = shares.remaining;
@@ -74,9 +81,11 @@ Judged judge(const Seen& seen) {
     return traits_of(c.name).of_drive || traits_of(c.name).of_motors;
   });
   out.rest = discrepancy({seen.gap, seen.rival, seen.lines, seen.jumps, seen.unsteady,
-                          seen.search.explained(), left_by_form(seen.search), of_drive});
+                          seen.search.explained(), left_by_form(seen.search), of_drive,
+                          out.causes.empty() ? 1.0 : seen.shares.remaining.value});
   for (const JudgedCause& cause : out.causes)
-    if (cause.right >= kNamed && cause.in_sets >= kTold) out.effects.push_back(cause.evidence.name);
+    if (cause.right >= kNamed && cause.in_sets >= kTold && closes_some(cause, seen.shares))
+      out.effects.push_back(cause.evidence.name);
   // In the place of those named: sets with others, about as probable.
   if (!out.effects.empty()) out.confused_with = in_their_place(out.effects, seen.search, seen.fitted);
   out.remaining = left_by(out.effects, seen.shares);
