@@ -64,12 +64,11 @@ TEST(ErrorBySpeed, VarianceThatGrowsWithSpeedIsFound) {
   for (Eigen::Index w = 0; w < 3000; ++w) {
     const double speed = 10 * static_cast<double>(w) / 3000;
     windows.push_back({.speed = speed});
-    for (int k = 0; k < 3; ++k)
-      residual[3 * w + k] = std::sqrt(0.01 + 0.04 * speed * speed) * random.normal();
+    for (int k = 0; k < 3; ++k) residual[3 * w + k] = std::sqrt(0.1 + 0.04 * speed * speed) * random.normal();
   }
   const Eigen::VectorXd weight = weight_by_speed(windows, residual);
   // Cut squares lower both terms alike: their ratio stays.
-  EXPECT_NEAR(weight[0] / weight[weight.size() - 1], (0.01 + 0.04 * 100) / 0.01, 0.3 * 401);
+  EXPECT_NEAR(weight[0] / weight[weight.size() - 1], (0.1 + 0.04 * 100) / 0.1, 0.3 * 41);
 }
 
 TEST(ConstantLimits, AMassKeepsToFiveOfItsDeviations) {

@@ -91,7 +91,9 @@ RecorderPauses recorder_pauses(const std::vector<StepRecord>& records, double an
     for (std::size_t e = 1; e < record.edges.size(); ++e) {
       double longest = 0.0;
       for (std::size_t i = 1; i < record.rows(); ++i)
-        if (record.t[i] >= record.edges[e].t && record.t[i - 1] <= record.edges[e].t + answer_time)
+        // The row of an edge begins its answer: what lies before it is the step before, settled rows left
+        // out.
+        if (record.t[i] > record.edges[e].t && record.t[i - 1] <= record.edges[e].t + answer_time)
           longest = std::max(longest, record.t[i] - record.t[i - 1]);
       if (longest < kPause * found.usual) continue;
       ++found.steps;

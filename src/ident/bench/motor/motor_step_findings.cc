@@ -69,7 +69,7 @@ void judge_dead_times(Result& result, const std::vector<StepRecord>& records, co
   const double half_width =
       t_quantile(0.975, std::max(1.0, static_cast<double>(motor.shifts.size()) - 1.0)) * motor.edge_scatter;
   dead_time.std = motor.edge_scatter;
-  dead_time.ci95 = {dead_time.value - half_width, dead_time.value + half_width};
+  dead_time.ci95 = {std::max(dead_time.value - half_width, 0.0), dead_time.value + half_width};
   dead_time.identifiable = dead_time.std < 0.1 * response.total_lag.value;
   dead_time.note = "not one for all steps: the deviation is that of a single step";
   result.warn(

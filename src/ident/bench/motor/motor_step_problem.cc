@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "ident/bench/motor/motor_step_edges.h"
 #include "ident/lsq/least_squares_fit.h"
 #include "ident/lsq/least_squares_result.h"
-#include "ident/bench/motor/motor_step_edges.h"
 
 namespace ident {
 namespace {

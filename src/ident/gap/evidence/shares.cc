@@ -130,7 +130,9 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
   const std::vector<double> shares = shares_of(sums);
   std::vector<std::vector<double>> draws(players.size() + 1);
   std::mt19937_64 random(22);
-  for (int d = 0; d < kDraws && !shares.empty(); ++d) {
+  // One block has no other to differ from: its shares have no interval.
+  const int draws_of = shares.empty() || listed.size() < 2 ? 0 : kDraws;
+  for (int d = 0; d < draws_of; ++d) {
     Sums drawn{std::vector<double>(sets), 0, 0};
     for (std::size_t b = 0; b < listed.size(); ++b) add(drawn, listed[random() % listed.size()]);
     const std::vector<double> one = shares_of(drawn);

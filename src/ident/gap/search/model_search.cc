@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "ident/core/error.h"
-#include "ident/flight/fit/fit_covariance.h"
 #include "ident/effects/cause_traits.h"
+#include "ident/flight/fit/fit_covariance.h"
 #include "ident/flight/fit/hover_priors.h"
 #include "ident/gap/search/exchange_sets.h"
 #include "ident/gap/search/next_cause.h"

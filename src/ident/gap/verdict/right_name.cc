@@ -7,6 +7,7 @@
 
 #include "ident/effects/catalogue.h"
 #include "ident/effects/cause_traits.h"
+#include "ident/flight/checks/implausible_estimates.h"
 #include "ident/gap/search/further.h"
 #include "ident/gap/verdict/decision.h"
 
@@ -56,13 +57,17 @@ bool is_told(const Candidate& cause, const std::vector<Parameter>& fitted) {
 }
 
 // Logarithm of its size over the limit of physics, of its constant that is farthest beyond; 0 within.
-double beyond_limit(const SearchResult& search, const Candidate& cause) {
+double beyond_limit(const SearchResult& search, const Candidate& cause,
+                    const std::vector<Parameter>& fitted) {
   if (!search.best.theta) return 0;
   const Theta& theta = *search.best.theta;
   double most = 1;
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    if (!is_constant_of(cause, c, i) || !find_effect_parameter(c.name)) continue;
+    if (!is_constant_of(cause, c, i)) continue;
+    if (const Parameter* at = value_of(fitted, c.name); at && is_before_its_command(*at))
+      return std::numeric_limits<double>::infinity();  // clocks that differ are no motor
+    if (!find_effect_parameter(c.name)) continue;
     most = std::max(
         most, std::abs(theta.physical(search.best.fit.u, i) - value_without(cause, c)) / physical_limit(c));
   }
@@ -116,7 +121,7 @@ NameEvidence evidence_of(const std::string& name, const NamesSeen& seen) {
     gain += own;
     varies = std::max(varies, variation(search, c, i));
     out.told_from_none = out.told_from_none && is_told(c, seen.fitted);
-    out.beyond = std::max(out.beyond, beyond_limit(search, c));
+    out.beyond = std::max(out.beyond, beyond_limit(search, c, seen.fitted));
   }
   out.left = log10_in((seen.rival.total() + 1) / (kRegressionByChance + left_by_form(search)), -2.0, 2.0);
   out.varies = log10_in(varies / form_of(name).varies, -2.0, 1.0);

@@ -15,6 +15,7 @@ namespace {
 
 std::string percent(const Share& share) {
   const auto in_100 = [](double x) { return std::round(100 * x) + 0.0; };  // no -0
+  if (!std::isfinite(share.ci95[0])) return fmt::format("{:.0f} %", in_100(share.value));
   return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", in_100(share.value), in_100(share.ci95[0]),
                      in_100(share.ci95[1]));
 }

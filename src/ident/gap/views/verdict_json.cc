@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "ident/result/json_number.h"
 #include "ident/gap/views/gap_sections.h"
+#include "ident/result/json_number.h"
 
 namespace ident {
 namespace {
