@@ -47,18 +47,13 @@ std::vector<JudgedCause> causes_of(const Seen& seen) {
     JudgedCause cause{evidence_of(name, {seen.search, seen.shares, seen.rival, seen.fitted}),
                       seen.search.probability_of(name), 0, share_of(name, seen.shares)};
     cause.right = probability_right(cause.evidence);
-    if (is_beyond_physics(name, seen.fitted)) cause.right = std::max(cause.right, kNamed);
-    if (cause.evidence.seen) cause.in_sets = 1;
+    const bool beyond_physics = is_beyond_physics(name, seen.fitted);
+    if (beyond_physics) cause.right = std::max(cause.right, kNamed);
+    // Sets are compared near the fit; so far away they do not reach.
+    if (cause.evidence.seen || beyond_physics) cause.in_sets = 1;
     out.push_back(std::move(cause));
   }
   return out;
-}
-
-// Whether a cause closes some of the gap of held-out flight beyond chance, in a set that closes some of it.
-// What does not is no cause of the gap, whatever its evidence on the flight that it was fitted to.
-bool closes_some(const JudgedCause& cause, const GapShares& shares) {
-  if (cause.evidence.seen || !std::isfinite(cause.share.value)) return true;
-  return cause.share.ci95[0] > 0 && shares.remaining.value < 1;
 }
 
 // What the causes named leave: of those found the others are part of it.
@@ -70,6 +65,14 @@ Share left_by(const std::vector<std::string>& named, const GapShares& shares) {
       for (std::size_t i = 0; i < 2; ++i) out.ci95[i] += c.share.value;
     }
   return out;
+}
+
+// Whether a cause closes some of the gap of held-out flight beyond chance, named with causes that leave so
+// much. What does not is no cause of the gap, whatever its evidence on the flight that it was fitted to.
+// Where nothing material is left, shares are too small to tell.
+bool closes_some(const JudgedCause& cause, const Share& left) {
+  if (cause.evidence.seen || !std::isfinite(cause.share.value) || left.value < kMaterial) return true;
+  return cause.share.ci95[0] > 0 && left.value < 1;
 }
 
 }  // namespace
@@ -84,10 +87,20 @@ Judged judge(const Seen& seen) {
                           seen.search.explained(), left_by_form(seen.search), of_drive,
                           out.causes.empty() ? 1.0 : seen.shares.remaining.value});
   for (const JudgedCause& cause : out.causes)
-    if (cause.right >= kNamed && cause.in_sets >= kTold && closes_some(cause, seen.shares))
-      out.effects.push_back(cause.evidence.name);
+    if (cause.right >= kNamed && cause.in_sets >= kTold) out.effects.push_back(cause.evidence.name);
+  const Share left = left_by(out.effects, seen.shares);
+  std::vector<std::string> closing;  // of all found
+  for (const JudgedCause& cause : out.causes)
+    if (closes_some(cause, left)) closing.push_back(cause.evidence.name);
+  std::erase_if(out.effects, [&](const std::string& name) { return !is_among(name, closing); });
   // In the place of those named: sets with others, about as probable.
   if (!out.effects.empty()) out.confused_with = in_their_place(out.effects, seen.search, seen.fitted);
+  // A cause that was tried beside them and closes nothing closes nothing in their place either.
+  std::erase_if(out.confused_with, [&](const std::string& name) {
+    const bool found = std::ranges::any_of(
+        out.causes, [&](const JudgedCause& cause) { return cause.evidence.name == name; });
+    return found && !is_among(name, closing);
+  });
   out.remaining = left_by(out.effects, seen.shares);
   std::vector<std::string> found;
   for (const JudgedCause& cause : out.causes) found.push_back(cause.evidence.name);
@@ -101,7 +114,8 @@ Judged judge(const Seen& seen) {
   } else if (!out.confused_with.empty()) {
     out.status = "ambiguous";
   } else {
-    const bool others = out.effects.size() < out.causes.size();
+    const bool others =
+        std::ranges::any_of(closing, [&](const std::string& name) { return !is_among(name, out.effects); });
     out.status = something_else || others ? "partly" : "identified";
   }
   out.sentence = sentence_of(out, seen);
