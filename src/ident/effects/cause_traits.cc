@@ -17,8 +17,19 @@ constexpr std::array<std::string_view, 1> kOfFlapping = {"rotor_drag"};
 constexpr std::array<std::string_view, 2> kOfWind = {"rotor_drag", "parasitic_drag"};
 
 // Signatures that go together with a correlation of 0.98 in gentle flight.
-constexpr std::array<std::string_view, 2> kLikeShift = {"rotor_mismatch", "payload"};
-constexpr std::array<std::string_view, 1> kLikePayload = {"cg_offset"};
+template <std::size_t n>
+using Alike = std::array<std::string_view, n>;
+constexpr Alike<3> kLikeShift = {"rotor_mismatch", "payload", "imu_lever_arm"};
+constexpr Alike<2> kLikePayload = {"cg_offset", "parameter:m"};
+constexpr Alike<2> kLikeMass = {"parameter:kT", "payload"};  // thrust over mass is what flight tells
+constexpr Alike<1> kLikeThrust = {"parameter:m"};
+constexpr Alike<1> kLikeMismatch = {"rotor_tilt"};  // either is a moment for each rotor
+constexpr Alike<1> kLikeTilt = {"rotor_mismatch"};
+constexpr Alike<1> kLikeTurnedImu = {"imu_bias"};  // gravity through a small angle is a bias in level flight
+constexpr Alike<1> kLikeBias = {"imu_misalignment"};
+constexpr Alike<1> kLikeLeverArm = {"cg_offset"};
+constexpr Alike<1> kLikeMotorDelay = {"sensor_delay"};  // commands late, or readings late
+constexpr Alike<1> kLikeSensorDelay = {"motor_delay"};
 
 constexpr std::array kTraits = {
     CauseTraits{.name = "payload",
@@ -29,24 +40,27 @@ constexpr std::array kTraits = {
                 .alias_of = "cg_offset"},
     CauseTraits{.name = "cg_offset", .moves_mass = true, .look_alikes = kLikeShift},
     CauseTraits{.name = "products_of_inertia", .moves_mass = true},
-    CauseTraits{.name = "parameter:m", .moves_mass = true},
+    CauseTraits{.name = "parameter:m", .moves_mass = true, .look_alikes = kLikeMass},
     CauseTraits{.name = "parameter:Jxx", .moves_mass = true},
     CauseTraits{.name = "parameter:Jyy", .moves_mass = true},
     CauseTraits{.name = "parameter:Jzz", .moves_mass = true},
-    CauseTraits{.name = "imu_bias", .of_mounting = true},
-    CauseTraits{.name = "imu_lever_arm", .of_mounting = true},
-    CauseTraits{.name = "imu_misalignment", .of_mounting = true},
+    CauseTraits{.name = "imu_bias", .of_mounting = true, .look_alikes = kLikeBias},
+    CauseTraits{.name = "imu_lever_arm", .of_mounting = true, .look_alikes = kLikeLeverArm},
+    CauseTraits{.name = "imu_misalignment", .of_mounting = true, .look_alikes = kLikeTurnedImu},
     CauseTraits{.name = "battery_sag", .of_drive = true, .of_battery = true},
     CauseTraits{.name = "thrust_curve", .of_drive = true},
-    CauseTraits{.name = "motor_delay", .of_motors = true, .between_rows = true},
+    CauseTraits{
+        .name = "motor_delay", .of_motors = true, .between_rows = true, .look_alikes = kLikeMotorDelay},
+    CauseTraits{.name = "sensor_delay", .look_alikes = kLikeSensorDelay},
+    CauseTraits{.name = "parameter:kT", .look_alikes = kLikeThrust},
     CauseTraits{.name = "motor_asymmetry", .of_motors = true, .between_rows = true},
     CauseTraits{.name = "parameter:omega_m", .of_motors = true, .of_lag = true, .between_rows = true},
     CauseTraits{.name = "parameter:zeta_m", .of_motors = true, .of_lag = true, .between_rows = true},
     CauseTraits{.name = "parameter:km", .of_motors = true},
     CauseTraits{.name = "parameter:dead_time", .between_rows = true},
     CauseTraits{.name = "parameter:Jp", .between_rows = true},
-    CauseTraits{.name = "rotor_mismatch", .per_rotor = true},
-    CauseTraits{.name = "rotor_tilt", .per_rotor = true},
+    CauseTraits{.name = "rotor_mismatch", .per_rotor = true, .look_alikes = kLikeMismatch},
+    CauseTraits{.name = "rotor_tilt", .per_rotor = true, .look_alikes = kLikeTilt},
     CauseTraits{.name = "rotor_drag", .carries_air = true},
     CauseTraits{.name = "parasitic_drag", .carries_air = true},
     CauseTraits{.name = "blade_flapping", .implies = kOfFlapping, .look_alikes = kOfFlapping},

@@ -22,8 +22,8 @@ struct CauseTraits {
   bool between_rows = false;  ///< what a controller does between two logged commands passes for it
   /// Causes that come with it: naming both says one thing twice.
   std::span<const std::string_view> implies = {};
-  /// Causes whose signatures are next to its own in any but rich flight: where one was not tried, it may be
-  /// that one.
+  /// Causes whose signatures are next to its own in any but rich flight: where one was excluded, it may
+  /// be that one.
   std::span<const std::string_view> look_alikes = {};
   /// What it is where it is small: a payload too light to be weighed is a shifted centre of gravity.
   std::string_view alias_of = {};

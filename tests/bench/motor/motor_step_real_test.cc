@@ -25,7 +25,6 @@ TEST(RealMotorSteps, RiseNear33MillisecondsAndSpinDownSlower) {
   EXPECT_LT(up, 0.038);
   EXPECT_GT(down, up);
   EXPECT_LT(down, 0.050);
-  EXPECT_TRUE(result.has_warning("spin_asymmetry"));
   EXPECT_TRUE(result.has_warning("not_driven"));
   EXPECT_GE(result.find("dead_time")->value, 0.0);
   EXPECT_LT(processor_time, 10.0);  // 4 s measured

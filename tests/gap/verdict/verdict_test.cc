@@ -85,8 +85,9 @@ TEST(Verdict, ACauseBesideTheOneFoundIsNoRivalAndOneInItsPlaceIs) {
   EXPECT_EQ(instead.confused_with, Names{"payload"});
 }
 
-TEST(Verdict, ACauseWhoseLookAlikeWasNotTriedIsNotNamed) {
-  Case c({"cg_offset", "payload"}, {"cg_offset"});  // no rotor_mismatch
+TEST(Verdict, ACauseWhoseLookAlikeWasExcludedIsNotNamed) {
+  Case c({"cg_offset", "payload"}, {"cg_offset"});
+  c.search.problem.excluded = {"rotor_mismatch"};
   c.weighs({0}, 1.0);
   EXPECT_EQ(c.judged().status, "unknown");
   EXPECT_EQ(c.judged().confused_with, Names{"cg_offset"});

@@ -1,6 +1,6 @@
 // Fits a line through three points and reads a vehicle: what needs Ceres and yaml-cpp behind the library.
-#include <ident/io/vehicle/vehicle_file.h>
-#include <ident/lsq/least_squares.h>
+#include <ident/io/vehicle/vehicle_read.h>
+#include <ident/lsq/least_squares_fit.h>
 
 #include <iostream>
 

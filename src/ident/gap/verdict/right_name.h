@@ -23,7 +23,7 @@ struct NameEvidence {
   double beside = 0;  ///< causes of the vehicle found beside it
   double beyond = 0;  ///< logarithm of its size over the limit of physics, 0 within
   bool told_from_none = true;
-  bool untried = false;  ///< a look-alike was not among the causes tried
+  bool untried = false;  ///< a look-alike was excluded from the causes tried
   bool seen = false;     ///< thrust over voltage shows it without any model
 };
 

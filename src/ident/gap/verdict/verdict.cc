@@ -69,9 +69,12 @@ Share left_by(const std::vector<std::string>& named, const GapShares& shares) {
 
 // Whether a cause closes some of the gap of held-out flight beyond chance, named with causes that leave so
 // much. What does not is no cause of the gap, whatever its evidence on the flight that it was fitted to.
-// Where nothing material is left, shares are too small to tell.
+// Where nothing material is left, shares are too small to tell; and what only changes readings moves no
+// vehicle.
 bool closes_some(const JudgedCause& cause, const Share& left) {
-  if (cause.evidence.seen || !std::isfinite(cause.share.value) || left.value < kMaterial) return true;
+  if (cause.evidence.seen || traits_of(cause.evidence.name).of_mounting ||
+      !std::isfinite(cause.share.value) || left.value < kMaterial)
+    return true;
   return cause.share.ci95[0] > 0 && left.value < 1;
 }
 
@@ -94,7 +97,14 @@ Judged judge(const Seen& seen) {
     if (closes_some(cause, left)) closing.push_back(cause.evidence.name);
   std::erase_if(out.effects, [&](const std::string& name) { return !is_among(name, closing); });
   // In the place of those named: sets with others, about as probable.
-  if (!out.effects.empty()) out.confused_with = in_their_place(out.effects, seen.search, seen.fitted);
+  // What was seen without the sets (the battery in the thrust) has nothing in its place.
+  std::vector<std::string> by_sets = out.effects;
+  std::erase_if(by_sets, [&](const std::string& name) {
+    return std::ranges::any_of(out.causes, [&](const JudgedCause& cause) {
+      return cause.evidence.name == name && cause.evidence.seen;
+    });
+  });
+  if (!by_sets.empty()) out.confused_with = in_their_place(by_sets, seen.search, seen.fitted);
   // A cause that was tried beside them and closes nothing closes nothing in their place either.
   std::erase_if(out.confused_with, [&](const std::string& name) {
     const bool found = std::ranges::any_of(
