@@ -233,7 +233,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   doubt_unnamed(result.parameters, search.best.adopted, verdict.effects);
   result.extra["candidates"] = std::move(tried);
   result.extra["not_tried"] = causes_not_tried(search, vehicle, options.exclude);
-  result.extra["gap"] = as_json(seen.held_out, search.form.noise);
+  result.extra["gap"] = as_json(seen.held_out, search);
   result.extra["gap"]["without_causes"] = number_or_null(seen.shares.without_causes);
   result.extra.update(search_details({search, seen.before, seen.rival, seen.lines, vibration, seen.jumps}));
   if (!wrong.empty()) distrust(result, wrong);

@@ -257,7 +257,10 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
                          {"noise_floor", nullptr},
                          {"closed", nullptr},
                          {"closed_ci95", {nullptr, nullptr}},
-                         {"horizons", Json::array()}};
+                         {"horizons", Json::array()},
+                         {"forces", nullptr},
+                         {"moments", nullptr},
+                         {"open_loop", nullptr}};
   result.extra["balance"] = {{"stretches", trim.stretches.size()},
                              {"rotor_scatter", base.trim.scatter.rotor},
                              {"level_scatter", base.trim.scatter.level},

@@ -7,6 +7,7 @@
 
 #include "ident/flight/fit/fit_covariance.h"
 #include "ident/flight/record/excerpts.h"
+#include "ident/gap/evidence/motion_errors.h"
 #include "ident/gap/hypotheses/cause_alone.h"
 #include "ident/result/json_number.h"
 
@@ -43,7 +44,8 @@ double missed(const std::vector<PredictionWindow>& windows, const Quantity& q, c
   return count > 0 ? q.per_SI * std::sqrt(3 * sum / count) : kNaN;  // of the vector
 }
 
-nlohmann::ordered_json open_loop(const HeldOutGap& all, const NoiseModel& noise) {
+// Errors of the channels, from states that were estimated out of the flight before the window.
+nlohmann::ordered_json channel_errors(const HeldOutGap& all, const NoiseModel& noise) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (std::size_t h = 0; h < all.windows.horizons.size(); ++h) {
     nlohmann::ordered_json one{{"horizon", all.windows.horizons[h]}};
@@ -65,6 +67,15 @@ bool has_room(const HeldOutGap& all, double horizon) {
   const double least = all.windows.history + horizon;
   return std::ranges::any_of(all.record.arcs,
                              [&](const FlightArc& arc) { return arc.t.back() - arc.t.front() > least; });
+}
+
+ComparedModels compared(const HeldOutGap& all, const SearchResult& search) {
+  ComparedModels out{.stated = search.base.theta->p(all.stated),
+                     .found = search.best.theta->p(all.found),
+                     .sigma = search.form.noise.sigma};
+  for (int log = 0; log < all.record.logs; ++log)
+    out.gyro_bias.push_back(search.best.theta->gyro_bias(all.found, log));
+  return out;
 }
 
 // Sets which horizon is judged, and what it shows.
@@ -118,14 +129,15 @@ HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise) {
   return {all.record, all.stated, all.found, noise, all.before.back(), all.after.back()};
 }
 
-nlohmann::ordered_json as_json(const HeldOutGap& all, const NoiseModel& noise) {
+nlohmann::ordered_json as_json(const HeldOutGap& all, const SearchResult& search) {
   nlohmann::ordered_json out = as_json(all.gap), horizons = nlohmann::ordered_json::array();
   for (std::size_t h = 0; h < all.horizons.size(); ++h) {
     horizons.push_back({{"horizon", all.windows.horizons[h]}});
     horizons.back().update(as_json(all.horizons[h]));
   }
   out["horizons"] = horizons;
-  out["open_loop"] = open_loop(all, noise);
+  out.update(motion_errors(all.record, compared(all, search)));
+  out["channels"] = channel_errors(all, search.form.noise);
   return out;
 }
 

@@ -34,7 +34,8 @@ PredictionOptions without_floors(PredictionOptions windows);
 /// For pictures and signatures.
 HeldOutFlight as_flight(const HeldOutGap& all, const NoiseModel& noise);
 
-/// As `gap` of a result, with its `horizons`; `open_loop` has the same in the units of what is predicted.
-nlohmann::ordered_json as_json(const HeldOutGap& all, const NoiseModel& noise);
+/// As `gap` of a result, with its `horizons`; `forces`, `moments` and `open_loop` say the same in the units
+/// of what is predicted.
+nlohmann::ordered_json as_json(const HeldOutGap& all, const SearchResult& search);
 
 }  // namespace ident
