@@ -14,7 +14,7 @@ namespace {
 using testing::flight;
 using testing::quad;
 
-constexpr double kBias = 0.05;  // rad/s
+constexpr double kBias = 0.3;  // rad/s
 
 struct Case {
   Vehicle vehicle = quad();
@@ -56,14 +56,14 @@ TEST(MotionErrors, AWrongInertiaIsARateAndAnAttitudeThatAreMissed) {
   EXPECT_NEAR(value(errors, "forces", 2, "before"), value(errors, "forces", 2, "after"), 1e-12);
 }
 
-// The model that flew errs by the noise at both ends of a window, while that has not turned it yet.
+// The model that flew errs by the noise at both ends of a window, and by what noise of the motors adds.
 TEST(MotionErrors, TheTrueModelIsAtTheFloor) {
   Case c;
   const auto errors = c.errors(flight(c.vehicle, 200, 3, 20), c.heavy);
   for (const char* what : {"forces", "moments"}) {
     const double ratio = value(errors, what, 0, "after") / value(errors, what, 0, "noise_floor");
     EXPECT_GT(ratio, 0.7) << what;
-    EXPECT_LT(ratio, 1.6) << what;
+    EXPECT_LT(ratio, 2.0) << what;
   }
 }
 
@@ -72,7 +72,7 @@ TEST(MotionErrors, TheBiasOfTheGyroIsNoErrorOfTheModel) {
   FlightLog log = flight(c.vehicle, 200, 3, 20);
   const double without = value(c.errors(log, c.heavy), "open_loop", 2, "after");
   for (double& p : log.w_B[0]) p += kBias;
-  EXPECT_GT(value(c.errors(log, c.heavy), "open_loop", 2, "after"), without + 1.0);
+  EXPECT_GT(value(c.errors(log, c.heavy), "open_loop", 2, "after"), without + 5.0);
   EXPECT_NEAR(value(c.errors(log, c.heavy, kBias), "open_loop", 2, "after"), without, 0.2);
 }
 

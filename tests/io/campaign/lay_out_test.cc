@@ -53,7 +53,6 @@ TEST(LayOut, NamesEveryFileOnceAsSeenFromTheFolder) {
   write_text(folder, "flights/one.csv", normalised());
   const LaidOutCampaign layout = lay_out_campaign(folder);
   EXPECT_TRUE(layout.drafted.empty());
-  EXPECT_NE(layout.text.find("\n  - flights"), 0U);
   EXPECT_NE(layout.text.find("thrust: \"sweep 1\""), std::string::npos) << layout.text;
   EXPECT_NE(layout.text.find("logs: flights/one.csv"), std::string::npos) << layout.text;
   const Campaign campaign = read_back(layout, folder);
@@ -106,8 +105,9 @@ TEST(LayOut, WhatCommandsCouldNotReadIsLeftAlone) {
   write_text(folder, "quad.yaml", kVehicle);
   write_text(folder, "a.csv", normalised());
   write_text(folder, "b.csv", normalised());
-  write_text(folder, "six.csv",
-             "t,delta1,delta2,delta3,delta4,delta5,delta6,p\n0,.5,.5,.5,.5,.5,.5,0\n1,.5,.5,.5,.5,.5,.5,1\n");
+  write_text(
+      folder, "six.csv",
+      "t,delta1,delta2,delta3,delta4,delta5,delta6,p\n0,.5,.5,.5,.5,.5,.5,0\n0.01,.5,.5,.5,.5,.5,.5,1\n");
   write_text(folder, "nan.csv", "omega,thrust\nnan,nan\nnan,nan\n");
   write_text(folder, "old.yaml", "parameters: {kT: 6e-6}\n");
   const LaidOutCampaign layout = lay_out_campaign(folder);

@@ -5,9 +5,11 @@
 //   floor^2 = 2 sum sigma^2                               of velocity and of rates (1) floor^2 = 2 sum
 //   sigma^2 + T^2 sum sigma_gyro^2        of attitude, T seconds ahead                      (2)
 //
-// with sums over three axes, to first order in the noise.
+// with sums over three axes, to first order in the noise of the sensors. Gusts and the noise of motors come
+// on top and grow with T.
 #include "ident/gap/evidence/motion_errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kByChance = 2.0;  // standard deviations of a mean square over windows with three axes each
 
 struct Score {
   const char *name, *unit;
@@ -46,13 +49,20 @@ double floor_of(Metric metric, double T, const Signals& logged, const std::array
   return 2 * sum_of_squares(sigma, kAttitude) + T * T * gyro;              // (2)
 }
 
-Json horizon_json(double T, double before, double after, double floor_squared, double per_SI) {
-  const double gap = before * before - floor_squared;
-  const double closed = gap > 0 ? 1 - (after * after - floor_squared) / gap : kNaN;
-  return {{"seconds", T},
-          {"before", number_or_null(per_SI * before)},
-          {"after", number_or_null(per_SI * after)},
-          {"noise_floor", number_or_null(per_SI * std::sqrt(floor_squared))},
+// What both models err by at one horizon. A gap that noise of so few windows makes is none to be closed.
+Json horizon_json(const Score& score, std::size_t h, const std::vector<WindowErrors>& before,
+                  const std::vector<WindowErrors>& after, double floor_squared) {
+  const double of_stated = error_of(before, score.metric, h), of_found = error_of(after, score.metric, h);
+  const auto windows = std::ranges::count_if(before, [&](const WindowErrors& w) {
+    return std::isfinite(w.of[static_cast<std::size_t>(score.metric)][h]);
+  });
+  const double by_chance = kByChance * std::sqrt(2.0 / (3.0 * static_cast<double>(windows))) * floor_squared;
+  const double gap = of_stated * of_stated - floor_squared;
+  const double closed = gap > by_chance ? 1 - (of_found * of_found - floor_squared) / gap : kNaN;
+  return {{"seconds", kLadderHorizons[h]},
+          {"before", number_or_null(score.per_SI * of_stated)},
+          {"after", number_or_null(score.per_SI * of_found)},
+          {"noise_floor", number_or_null(score.per_SI * std::sqrt(floor_squared))},
           {"closed", number_or_null(closed)}};
 }
 
@@ -79,11 +89,9 @@ Json motion_errors(FlightRecord record, const ComparedModels& models) {
     out[one.name] = nullptr;
     if (!one.logged) continue;
     Json horizons = Json::array();
-    for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
-      const double T = kLadderHorizons[h];
-      horizons.push_back(horizon_json(T, error_of(before, one.metric, h), error_of(after, one.metric, h),
-                                      floor_of(one.metric, T, record.signals, models.sigma), one.per_SI));
-    }
+    for (std::size_t h = 0; h < kLadderHorizons.size(); ++h)
+      horizons.push_back(horizon_json(
+          one, h, before, after, floor_of(one.metric, kLadderHorizons[h], record.signals, models.sigma)));
     out[one.name] = {{"unit", one.unit}, {"horizons", horizons}};
   }
   return out;

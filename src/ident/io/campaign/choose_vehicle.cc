@@ -9,6 +9,7 @@
 #include "ident/core/error.h"
 #include "ident/io/draft/draft_vehicle.h"
 #include "ident/io/file/yaml_value.h"
+#include "ident/io/log/read_flight_log.h"
 #include "ident/io/log_formats/read_log_streams.h"
 #include "ident/io/vehicle/vehicle_read.h"
 #include "ident/io/vehicle/vehicle_write.h"
@@ -43,7 +44,7 @@ void refuse_several(const std::vector<std::string>& vehicles) {
                   vehicles.size(), fmt::join(vehicles, ", ")));
 }
 
-/// Logs that state where the motors sit. Those that cannot be read are told of when flights are read.
+/// Logs of flights that state where the motors sit. What is no flight is told of when flights are read.
 std::vector<LogStreams> logs_with_geometry(const std::vector<FoundFile>& files,
                                            std::vector<std::string>& notices) {
   std::vector<LogStreams> logs;
@@ -51,6 +52,7 @@ std::vector<LogStreams> logs_with_geometry(const std::vector<FoundFile>& files,
     try {
       LogStreams log = read_log_streams(path);
       draft_vehicle(std::span(&log, 1));
+      read_flight_log(path, Vehicle{}, {});
       logs.push_back(std::move(log));
     } catch (const DataError& error) {
       notices.emplace_back(error.what());

@@ -62,10 +62,12 @@ class Layout {
       const auto twin = std::ranges::find_if(same_size, [&](const std::string& other) {
         return sha256_of_file(other) == sha256_of_file(file.path);
       });
-      same_size.push_back(file.path);
-      if (twin == same_size.end() - 1) return false;
-      leave(file, fmt::format("holds the same bytes as {}", *twin));
-      return true;
+      const bool is_copy = twin != same_size.end();
+      if (is_copy)
+        leave(file, fmt::format("holds the same bytes as {}", seen_from(folder_, *twin)));
+      else
+        same_size.push_back(file.path);
+      return is_copy;
     });
   }
 
@@ -81,7 +83,7 @@ class Layout {
       case FileKind::autopilot_log:
         return take_log(file);
       case FileKind::table:
-        return take_mapped(file);
+        return take_by_map(file, file.what);
       case FileKind::map:
         return;  // taken with the log that needs it
       case FileKind::vehicle:
@@ -123,24 +125,27 @@ class Layout {
   }
 
   void take_log(const FoundFile& file) {
-    if (const std::string why = unreadable(file.path, {}); !why.empty()) return leave(file, why);
+    const std::string why = unreadable(file.path, {});
+    if (!why.empty()) return take_by_map(file, why);
     out_.campaign.logs.push_back({file.path, ""});
     out_.taken.push_back(file);
   }
 
-  void take_mapped(const FoundFile& file) {
+  /// A log that does not read as it is, `why` not, may do by one of the maps that lie there.
+  void take_by_map(const FoundFile& file, const std::string& why) {
     std::vector<std::string> fitting;
     for (const FoundFile& map : files_)
       if (map.kind == FileKind::map && unreadable(file.path, read_log_map(map.path)).empty())
         fitting.push_back(map.path);
-    if (fitting.empty()) return leave(file, file.what);
+    if (fitting.empty()) return leave(file, why);
     if (fitting.size() > 1)
       return leave(
           file, fmt::format("a flight log by either map, {} and {}: name it with one of them in ident.yaml",
-                            fitting[0], fitting[1]));
+                            seen_from(folder_, fitting[0]), seen_from(folder_, fitting[1])));
     out_.campaign.logs.push_back({file.path, fitting.front()});
+    const std::string kind = file.kind == FileKind::table ? "flight log" : file.what;
     out_.taken.push_back({file.path, FileKind::flight_log,
-                          fmt::format("flight log, by the map {}", seen_from(folder_, fitting.front()))});
+                          fmt::format("{}, by the map {}", kind, seen_from(folder_, fitting.front()))});
   }
 
   void leave_idle_maps() {

@@ -63,9 +63,11 @@ bool is_kind(const std::string& path, const CsvReader& csv, const TableSchema& s
   }
 }
 
-/// Whether below a header of several names stands a row of as many cells, half of them numbers.
+/// Whether below a header of several names stands a row of as many cells, half of them numbers. JSON and XML
+/// have commas and numbers as well.
 bool has_numbers(CsvReader& csv) {
   std::vector<std::string_view> cells;
+  if (csv.header().front().starts_with('{') || csv.header().front().starts_with('<')) return false;
   if (csv.header().size() < 2 || !csv.next_row(cells) || csv.is_short_row()) return false;
   return 2 * std::ranges::count_if(cells, looks_like_number) >= std::ssize(cells);
 }
@@ -145,8 +147,11 @@ FoundFile recognise_file(const std::string& path) {
     if (const std::string_view format = log_format_of_file(path); !format.empty())
       return {path, FileKind::autopilot_log, fmt::format("log of an autopilot ({})", format)};
     refuse_no_log(first_bytes(path, kRecognisedFrom), path);
-    if (std::optional<FoundFile> table = recognised_table(path)) return *std::move(table);
-    return recognised_text(path);
+    const std::optional<FoundFile> table = recognised_table(path);
+    const bool only_table = table && fs::file_size(path) > kLargestYaml;
+    if (table && (only_table || table->kind != FileKind::table)) return *table;
+    FoundFile text = recognised_text(path);
+    return table && text.what == kNothing ? *table : text;
   } catch (const Error& error) {
     return {path, FileKind::other, without_name(error.what(), path)};
   }
