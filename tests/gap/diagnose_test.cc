@@ -15,6 +15,21 @@ using Names = std::vector<std::string>;
 
 using namespace testing;  // flights of support/, not GoogleTest's
 
+// As a simulator's file states it: without a deviation.
+TEST(Diagnosis, AWrongSizeOfAStatedEffectIsNamed) {
+  Vehicle model = published_vehicle();
+  model.parameters["rotor_drag.kd"] = {9e-5, {}};
+  Vehicle truth = model;
+  truth.parameters["rotor_drag.kd"].value = 3e-5;
+  const std::vector<FlightLog> logs{flight_of(truth, 9)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"parameter:rotor_drag.kd"}))
+      << found.result.extra["verdict"];
+  EXPECT_NEAR(found.adopted.parameters.at("rotor_drag.kd").value, 3e-5, 3e-6);
+  const std::vector<FlightLog> right{flight_of(model, 10)};
+  EXPECT_EQ(diagnose_gap(model, right).result.extra["verdict"]["status"], "none");
+}
+
 TEST(Diagnosis, PrintedSignsOfPhangAreFoundAsGyroscopicAndRightOnesLeaveNothing) {
   const Vehicle truth = published_vehicle();
   Vehicle printed = truth;

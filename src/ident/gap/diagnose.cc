@@ -11,7 +11,6 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
-#include "ident/result/json_number.h"
 #include "ident/core/nearest_word.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/cause_traits.h"
@@ -47,8 +46,9 @@
 #include "ident/gap/views/gap_where.h"
 #include "ident/gap/views/search_details.h"
 #include "ident/gap/views/signature_plot.h"
-#include "ident/views/data_health.h"
 #include "ident/gap/views/verdict_json.h"
+#include "ident/result/json_number.h"
+#include "ident/views/data_health.h"
 
 namespace ident {
 namespace {
@@ -261,7 +261,8 @@ Looked looked_at(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
 
 }  // namespace
 
-Diagnosis diagnose_gap(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options) {
+Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, const GapOptions& options) {
+  const Vehicle vehicle = with_doubted_effects(stated);
   Diagnosis out;
   Result& result = out.result;
   result.schema = "ident.gap/1";

@@ -41,8 +41,8 @@ class Builder {
   void add_value(int i) {
     const FreeConstant& c = problem_.constants[static_cast<std::size_t>(i)];
     const bool rival_effect = c.index == param::Jp && vehicle_.signs == Signs::as_published;
-    if (c.prior_std && c.name.find('.') == std::string::npos && !rival_effect &&
-        wanted("parameter:" + c.name))
+    const bool at_rotor = c.name.find('@') != std::string::npos;  // its effect names the rotor, below
+    if (c.prior_std && !c.adopted && !at_rotor && !rival_effect && wanted("parameter:" + c.name))
       problem_.candidates.push_back({"parameter:" + c.name, {}, i, -1, false});
     // A rotor whose thrust is known to some per cent may have lost more: then that is the cause.
     if (c.prior_std && !c.adopted && is_rotor_ratio(c.name) && wanted("rotor_mismatch"))
@@ -200,6 +200,16 @@ bool states_constant(const Vehicle& vehicle, std::string_view name) {
   return std::ranges::any_of(vehicle.parameters, [&](const auto& entry) {
     return entry.first.starts_with(effect) && rotor(entry.first) == rotor(name);
   });
+}
+
+Vehicle with_doubted_effects(Vehicle vehicle) {
+  constexpr double kDigits = 0.02;  // two of them
+  for (auto& [name, known] : vehicle.parameters) {
+    const EffectParameter* size = find_effect_parameter(name);
+    if (size && known.value != size->null_value && !known.std)
+      known.std = kDigits * std::abs(known.value - size->null_value);
+  }
+  return vehicle;
 }
 
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,

@@ -46,6 +46,10 @@ bool states_effect(const Vehicle& vehicle, std::string_view effect);
 /// The same for the effect of this constant; of an effect at single rotors, for that rotor.
 bool states_constant(const Vehicle& vehicle, std::string_view name);
 
+/// The vehicle with a deviation for every size of an effect that its file states without one: the digits that
+/// such sizes are given with. A wrong one is a cause then like any constant, `parameter:rotor_drag.kd`.
+Vehicle with_doubted_effects(Vehicle vehicle);
+
 /// `base` are the constants of the current model (effects already adopted included), `exclude` names of
 /// causes that must not be tried.
 ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<double>& p, const Signals& signals,

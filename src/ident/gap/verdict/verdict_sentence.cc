@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/gap/verdict/decision.h"
 
 namespace ident {
@@ -27,7 +28,9 @@ std::string named(const Judged& verdict) {
     out.push_back(name);
     for (const JudgedCause& cause : verdict.causes)
       if (cause.evidence.name == name && std::isfinite(cause.share.value))
-        out.back() += fmt::format(" ({} of the gap)", percent(cause.share));
+        out.back() += traits_of(name).of_mounting && cause.share.value < kMaterial
+                          ? " (in the readings; the vehicle flies as without)"
+                          : fmt::format(" ({} of the gap)", percent(cause.share));
   }
   return fmt::format("{}", fmt::join(out, " and "));
 }

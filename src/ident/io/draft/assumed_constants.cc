@@ -22,7 +22,7 @@ constexpr double kHoverCommand =
 constexpr double kGravity = 9.81;  // m/s^2
 constexpr double kMotor = 25.0;    // rad/s; published ones lie between 15 and 50
 
-std::string line(const char* name, double value, double relative_std, const char* why) {
+std::string line(const char* name, double value, double relative_std, const std::string& why) {
   return fmt::format("{:<78} # ASSUMED: {}\n",
                      fmt::format("  {}: {{value: {:.3g}, std: {:.3g}}}", name, value, relative_std * value),
                      why);
@@ -30,15 +30,21 @@ std::string line(const char* name, double value, double relative_std, const char
 
 }  // namespace
 
-std::string assumed_constants(double mass, double arm, int rotors) {
+std::string assumed_constants(double mass, double arm, int rotors, const CarriedWeight& carried) {
   const double radius = kRadiusPerArm * arm;
-  const double km = kTipSpeed / radius;
-  const double Omega_hover = kHoverCommand * km;
+  const double command = carried.command.value_or(kHoverCommand);
+  const double km = carried.speed ? *carried.speed / command : kTipSpeed / radius;
+  const double Omega_hover = command * km;
   const double kT = mass * kGravity / (rotors * Omega_hover * Omega_hover);
   const double J = mass * arm * arm;
-  return "parameters:\n" + line("kT", kT, 1.0, "N s^2/rad^2, hover at half the command") +
+  const std::string hover =
+      carried.command ? fmt::format("carries the mass above at a command of {:.2f}, as in this log", command)
+                      : "hover at half the command";
+  return "parameters:\n" + line("kT", kT, 1.0, "N s^2/rad^2, " + hover) +
          line("kQ", kDragArm * radius * kT, 1.0, "N m s^2/rad^2") +
-         line("km", km, 0.5, "rad/s at full command, tips at 90 m/s") +
+         line("km", km, 0.5,
+              carried.speed ? "rad/s at full command, by the rotor speeds of the log"
+                            : "rad/s at full command, tips at 90 m/s") +
          line("omega_m", kMotor, 1.0, "rad/s") + line("zeta_m", 1.0, 0.5, "-") +
          line("Jxx", kRollInertia * J, 0.5, "kg m^2, by mass and arm") +
          line("Jyy", kRollInertia * J, 0.5, "kg m^2, by mass and arm") +

@@ -79,13 +79,27 @@ std::optional<Stated> stated(const LogStreams& log, std::initializer_list<const 
   return std::nullopt;
 }
 
-std::string command_line(const LogStreams& log) {
+struct StatedCommand {
+  Stated low, high;
+};
+std::optional<StatedCommand> stated_command(const LogStreams& log) {
   const auto low = stated(log, {"MOT_PWM_MIN", "PWM_MAIN_MIN1", "PWM_MAIN_MIN", "PWM_MIN", "RC3_MIN"});
   const auto high = stated(log, {"MOT_PWM_MAX", "PWM_MAIN_MAX1", "PWM_MAIN_MAX", "PWM_MAX", "RC3_MAX"});
-  if (log.find("actuator_motors:0")) return "";  // logged as 0 to 1
-  if (!low || !high || low->value >= high->value) return "";
-  return line(fmt::format("command: {{min: {}, max: {}}}", low->value, high->value),
-              fmt::format("us, {} and {}", low->name, high->name));
+  if (log.find("actuator_motors:0")) return std::nullopt;  // logged as 0 to 1
+  if (!low || !high || low->value >= high->value) return std::nullopt;
+  return StatedCommand{*low, *high};
+}
+
+std::optional<CommandRange> command_of(const LogStreams& log) {
+  const auto stated = stated_command(log);
+  return stated ? std::optional(CommandRange{stated->low.value, stated->high.value}) : std::nullopt;
+}
+
+std::string command_line(const LogStreams& log) {
+  const auto stated = stated_command(log);
+  if (!stated) return "";
+  return line(fmt::format("command: {{min: {}, max: {}}}", stated->low.value, stated->high.value),
+              fmt::format("us, {} and {}", stated->low.name, stated->high.name));
 }
 
 std::string battery_line(const LogStreams& log) {
@@ -142,7 +156,9 @@ VehicleDraft draft_vehicle(std::span<const LogStreams> logs) {
         arm);
     draft.fill_in.emplace_back("positions of the rotors");
   }
-  draft.yaml += battery_line(log) + assumed_constants(mass, arm, static_cast<int>(geometry.rotors.size())) +
+  const CarriedWeight carried = carried_weight(log, {.rotors = geometry.rotors, .command = command_of(log)});
+  draft.yaml += battery_line(log) +
+                assumed_constants(mass, arm, static_cast<int>(geometry.rotors.size()), carried) +
                 remarks(log);
   for (const LogStreams& other : logs.subspan(1))
     if (!same_place(geometry_of(other), geometry))
