@@ -56,6 +56,8 @@ TEST(RecogniseFile, SaysWhyAFileIsLeftAlone) {
   EXPECT_NE(reason("layout: x\narn: 0.17\n").find("did you mean 'arm'"), std::string::npos);
   EXPECT_NE(reason("PK\x03\x04zip").find("unpack it first"), std::string::npos);
   EXPECT_NE(reason("vehicle: a.yaml\nlogs: b.csv\n").find("a campaign file"), std::string::npos);
+  EXPECT_NE(reason("{\n \"a\": {\n  \"first\": 1.5,\n  \"last\": 2.5\n }\n}\n").find("no log, bench file"),
+            std::string::npos);
   EXPECT_NE(reason("# Notes\n\nFlown at noon, calm, two packs.\n").find("no log, bench file"),
             std::string::npos);
 }

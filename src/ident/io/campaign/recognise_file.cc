@@ -63,11 +63,16 @@ bool is_kind(const std::string& path, const CsvReader& csv, const TableSchema& s
   }
 }
 
-/// Whether below a header of several names stands a row of as many cells, half of them numbers. JSON and XML
-/// have commas and numbers as well.
+/// JSON and XML have commas and numbers as well.
+bool is_markup(const std::string& path) {
+  const std::string first = first_bytes(path, 64);
+  const std::size_t at = first.find_first_not_of(" \t\r\n");
+  return at != std::string::npos && (first[at] == '{' || first[at] == '<');
+}
+
+/// Whether below a header of several names stands a row of as many cells, half of them numbers.
 bool has_numbers(CsvReader& csv) {
   std::vector<std::string_view> cells;
-  if (csv.header().front().starts_with('{') || csv.header().front().starts_with('<')) return false;
   if (csv.header().size() < 2 || !csv.next_row(cells) || csv.is_short_row()) return false;
   return 2 * std::ranges::count_if(cells, looks_like_number) >= std::ssize(cells);
 }
@@ -93,7 +98,7 @@ std::optional<FoundFile> recognised_table(const std::string& path) {
     CsvReader again(path);
     if (read_propeller_data(path, again))
       return FoundFile{path, FileKind::thrust, "thrust sweep (coefficients of a propeller)"};
-    if (!has_numbers(csv)) return std::nullopt;
+    if (is_markup(path) || !has_numbers(csv)) return std::nullopt;
     return flight_or_table(path, csv);
   } catch (const Error&) {
     return std::nullopt;  // the reader of texts tells what it is
