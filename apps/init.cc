@@ -17,6 +17,7 @@ Outcome run(const Options& options, Context& context) {
   result.extra = layout_json(layout, options.folder);
   context.outputs.add(layout.campaign.file, layout.text);
   if (!layout.drafted.empty()) context.outputs.add(layout.campaign.vehicle, layout.drafted);
+  result.warnings = layout.warnings;
   context.notices = layout.notices;
   context.print = layout_text(layout, options.folder);
   return result;

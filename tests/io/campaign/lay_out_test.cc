@@ -75,6 +75,41 @@ TEST(LayOut, WithoutAVehicleFileBenchCommandsWorkAndTheRestIsToBeFilledIn) {
   EXPECT_EQ(layout.fill_in, (std::vector<std::string>{"mass", "rotors, or layout and arm"}));
 }
 
+/// A text log of ArduPilot: a quadrotor of that FRAME_TYPE, its motors at half.
+std::string ardupilot_log(int frame_type) {
+  std::string text =
+      "FMT, 128, 89, FMT, BBnNZ, Type,Length,Name,Format,Columns\n"
+      "FMT, 129, 31, PARM, QNf, TimeUS,Name,Value\n"
+      "FMT, 130, 35, IMU, Qffffff, TimeUS,GyrX,GyrY,GyrZ,AccX,AccY,AccZ\n"
+      "FMT, 131, 19, RCOU, QHHHH, TimeUS,C1,C2,C3,C4\n";
+  const auto parameter = [&](const char* name, int value) {
+    text += std::string("PARM, 1000, ") + name + ", " + std::to_string(value) + "\n";
+  };
+  parameter("FRAME_CLASS", 1), parameter("FRAME_TYPE", frame_type);
+  parameter("MOT_PWM_MIN", 1000), parameter("MOT_PWM_MAX", 2000);
+  for (int n = 1; n <= 4; ++n) parameter(("SERVO" + std::to_string(n) + "_FUNCTION").c_str(), 32 + n);
+  for (int i = 0; i < 1000; ++i) {
+    const std::string t = std::to_string(10000 * (i + 1)), rate = std::to_string(0.01 * (i * 7 % 11));
+    text += "IMU, " + t + ", " + rate + ", 0.01, 0.02, 0.1, " + rate + ", -9.8\n";
+    text += "RCOU, " + t + ", " + std::to_string(1500 + i * 3 % 7) + ", 1500, 1502, 1501\n";
+  }
+  return text;
+}
+
+TEST(LayOut, WithoutAVehicleFileItIsDraftedFromLogsOfAutopilots) {
+  const std::string folder = test_folder();
+  write_text(folder, "one", ardupilot_log(1));
+  write_text(folder, "two", ardupilot_log(0));  // plus, not X
+  const LaidOutCampaign layout = lay_out_campaign(folder);
+  const Campaign campaign = read_back(layout, folder);
+  EXPECT_EQ(campaign.logs.size(), 2U) << (layout.left.empty() ? "" : layout.left[0].what);
+  EXPECT_EQ(read_vehicle(campaign.vehicle).rotors.size(), 4U);
+  EXPECT_EQ(layout.fill_in, (std::vector<std::string>{"mass", "positions of the rotors"}));
+  EXPECT_EQ(layout.now.front(), "ident gap");
+  ASSERT_EQ(layout.warnings.size(), 1U);
+  EXPECT_EQ(layout.warnings[0].code, "other_frame");
+}
+
 TEST(LayOut, PulseWidthsAskForTheirRange) {
   const std::string folder = test_folder();
   write_text(folder, "quad.yaml", kVehicle);

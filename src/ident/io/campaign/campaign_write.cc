@@ -36,8 +36,9 @@ std::string key_of(const char* key, const std::vector<std::string>& values) {
 }  // namespace
 
 std::string seen_from(const std::string& folder, const std::string& path) {
-  const fs::path from = fs::weakly_canonical(folder);
-  return fs::weakly_canonical(path).lexically_proximate(from).generic_string();
+  fs::path from = fs::absolute(folder).lexically_normal();
+  if (!from.has_filename()) from = from.parent_path();  // of "a/" and "."
+  return fs::absolute(path).lexically_normal().lexically_proximate(from).generic_string();
 }
 
 std::string campaign_text(const Campaign& campaign, const std::string& folder) {

@@ -88,7 +88,8 @@ ChosenVehicle draft_in(const std::string& folder, const std::vector<FoundFile>& 
   } else {
     VehicleDraft draft = draft_vehicle(logs);
     chosen.drafted = std::move(draft.yaml), chosen.fill_in = std::move(draft.fill_in);
-    chosen.notices = std::move(draft.notices);
+    chosen.notices.clear();  // of logs that state no geometry, where another one does
+    for (std::string& other : draft.notices) chosen.warnings.push_back({"other_frame", std::move(other)});
   }
   chosen.vehicle = vehicle_from(parse_yaml(chosen.drafted, chosen.file));
   return chosen;

@@ -6,6 +6,7 @@
 
 #include "ident/io/campaign/recognise_file.h"
 #include "ident/model/vehicle.h"
+#include "ident/result/result.h"
 
 namespace ident {
 
@@ -15,6 +16,7 @@ struct ChosenVehicle {
   Vehicle vehicle;
   std::vector<std::string> fill_in;  ///< guesses of a draft that a user knows better
   std::vector<std::string> notices;
+  std::vector<Warning> warnings;  ///< logs of another frame than the one drafted
 };
 
 /// The file `named`, else the one vehicle file among `files`, else the one simulator's file, else a draft:

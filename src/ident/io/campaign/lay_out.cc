@@ -38,7 +38,7 @@ class Layout {
     expect_something();
     out_.text = campaign_text(out_.campaign, folder_);
     out_.drafted = chosen_.drafted;
-    out_.notices = chosen_.notices;
+    out_.notices = chosen_.notices, out_.warnings = chosen_.warnings;
     list_what_to_fill_in();
     list_commands();
     return std::move(out_);
@@ -198,8 +198,8 @@ class Layout {
     const auto list = [&](bool has_files, bool can_run, const char* command) {
       if (has_files) (can_run ? out_.now : out_.later).emplace_back(command);
     };
-    list(!c.thrust.empty(), !bench_pulses_, "ident thrust");
-    list(!c.motor.empty(), !bench_pulses_, "ident motor");
+    list(!c.thrust.empty(), true, "ident thrust");
+    list(!c.motor.empty(), true, "ident motor");
     list(!c.inertia.empty(), true, "ident inertia");
     list(!c.logs.empty(), flies && !log_pulses_, "ident gap");
     list(!c.logs.empty(), flies && !log_pulses_, "ident flightlog --refine");
@@ -209,8 +209,8 @@ class Layout {
   std::string folder_;
   std::vector<FoundFile> files_;
   ChosenVehicle chosen_;
-  Vehicle assumed_;  // with a range of commands
-  bool bench_pulses_ = false, log_pulses_ = false;
+  Vehicle assumed_;                                 // with a range of commands
+  bool bench_pulses_ = false, log_pulses_ = false;  // are there, and no range of them is stated
   LaidOutCampaign out_;
 };
 

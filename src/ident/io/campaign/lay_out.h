@@ -17,6 +17,7 @@ struct LaidOutCampaign {
   std::vector<std::string> fill_in;     ///< what the vehicle file guesses or does not state
   std::vector<std::string> now, later;  ///< commands that can run, and that can once that is filled in
   std::vector<std::string> notices;
+  std::vector<Warning> warnings;
 };
 
 /// Every file is read as the commands will, and left alone where they could not, or where another one has the
