@@ -80,8 +80,8 @@ ChosenVehicle draft_in(const std::string& folder, const std::vector<FoundFile>& 
   if (fs::exists(chosen.file))
     throw InputError(
         chosen.file, 0, "",
-        "is there already and is no vehicle file that can be read: `ident check` says why; nothing "
-        "is overwritten");
+        "is there already and states no rotors that can be read (`ident check` says why): nothing is "
+        "overwritten; --vehicle takes it as it is");
   const std::vector<LogStreams> logs = logs_with_geometry(files, chosen.notices);
   if (logs.empty()) {
     chosen.drafted = blank_vehicle(folder);
