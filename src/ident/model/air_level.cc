@@ -1,0 +1,47 @@
+// Dryden's low-altitude turbulence at one height, and two levels below it.
+#include "ident/model/air_level.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ident {
+namespace {
+
+constexpr double kMetresPerFoot = 0.3048, kMetresPerSecondInKnot = 0.514444;
+constexpr double kHeight = 20.0;  // ft
+// m/s, along every axis. A room without people or fans is draughty by 0.05 to 0.2 m/s of mean speed
+// [ISO 7730], of which a third is turbulence. Calm is below force 1 of Beaufort's scale, 0.3 m/s.
+constexpr double kIndoors = 0.05, kCalm = 0.3;
+
+GustScale dryden(double knots) {
+  const double sigma_w = 0.1 * knots * kMetresPerSecondInKnot;
+  const double sigma_u = sigma_w / std::pow(0.177 + 0.000823 * kHeight, 0.4);
+  return {.horizontal = sigma_u, .vertical = sigma_w, .length = kHeight * kMetresPerFoot};
+}
+
+}  // namespace
+
+std::optional<AirLevel> air_level(std::string_view word) {
+  const auto found = std::ranges::find(kAirWords, word);
+  if (found == kAirWords.end()) return std::nullopt;
+  return static_cast<AirLevel>(found - kAirWords.begin());
+}
+
+GustScale gusts_of(AirLevel level) {
+  constexpr double kLength = kHeight * kMetresPerFoot;
+  switch (level) {
+    case AirLevel::indoors:
+      return {kIndoors, kIndoors, kLength};
+    case AirLevel::calm:
+      return {kCalm, kCalm, kLength};
+    case AirLevel::light:
+      return dryden(15.0);
+    case AirLevel::moderate:
+      return dryden(30.0);
+    case AirLevel::strong:
+      return dryden(45.0);
+  }
+  return {};
+}
+
+}  // namespace ident
