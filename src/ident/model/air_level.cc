@@ -7,16 +7,16 @@
 namespace ident {
 namespace {
 
-constexpr double kMetresPerFoot = 0.3048, kMetresPerSecondInKnot = 0.514444;
+constexpr double kMetresPerSecondInKnot = 0.514444;
 constexpr double kHeight = 20.0;  // ft
-// m/s, along every axis. A room without people or fans is draughty by 0.05 to 0.2 m/s of mean speed
-// [ISO 7730], of which a third is turbulence. Calm is below force 1 of Beaufort's scale, 0.3 m/s.
+// m/s, along every axis. Rooms have mean speeds of 0.1 to 0.15 m/s and a turbulence intensity of about 40 %
+// [ISO 7730, draught]. Calm is below force 1 of Beaufort's scale, 0.3 m/s.
 constexpr double kIndoors = 0.05, kCalm = 0.3;
 
 GustScale dryden(double knots) {
   const double sigma_w = 0.1 * knots * kMetresPerSecondInKnot;
   const double sigma_u = sigma_w / std::pow(0.177 + 0.000823 * kHeight, 0.4);
-  return {.horizontal = sigma_u, .vertical = sigma_w, .length = kHeight * kMetresPerFoot};
+  return {.horizontal = sigma_u, .vertical = sigma_w};
 }
 
 }  // namespace
@@ -28,12 +28,11 @@ std::optional<AirLevel> air_level(std::string_view word) {
 }
 
 GustScale gusts_of(AirLevel level) {
-  constexpr double kLength = kHeight * kMetresPerFoot;
   switch (level) {
     case AirLevel::indoors:
-      return {kIndoors, kIndoors, kLength};
+      return {kIndoors, kIndoors};
     case AirLevel::calm:
-      return {kCalm, kCalm, kLength};
+      return {kCalm, kCalm};
     case AirLevel::light:
       return dryden(15.0);
     case AirLevel::moderate:

@@ -90,30 +90,6 @@ TEST(FlightSmoother, SettlingForArcEndsGivesTheEndsOfFullConvergence) {
   }
 }
 
-// A prior counts as 1/log_std^2 innovations: a loose one leaves what a flight shows, a tight one wins.
-TEST(FlightSmoother, APriorOfTheAirCountsByItsWidth) {
-  Gusty flight(8.0);
-  const auto gusts = [&](std::optional<AirPrior> prior) {
-    NoiseModel noise = initial_noise(flight.record);
-    noise.stated = prior;
-    FlightSmoother smoother(flight.record, flight.theta, noise, 0.1);
-    for (int round = 0; round < 6; ++round) {
-      smoother.settle(flight.u, 3);
-      smoother.linearize(flight.u, true);
-      smoother.accept();
-      smoother.retune(10);
-    }
-    return smoother.noise().air[0].v_dot[0].sigma;
-  };
-  AirPrior prior;
-  prior.w_dot.fill(1.0), prior.v_dot.fill(0.01), prior.log_std = std::log(2.5);
-  const double freely = gusts({}), loosely = gusts(prior);
-  EXPECT_LT(loosely, freely);
-  EXPECT_NEAR(loosely / freely, 1.0, 0.1);
-  prior.log_std = 0.01;
-  EXPECT_NEAR(gusts(prior), 0.01, 0.003);
-}
-
 // In a search chunks are twice as long as no gust within them shows, and none shorter than a tenth of a
 // second.
 TEST(FlightSmoother, ChunksOfASearchAreTwiceAsLongAsThoseOfARefinement) {

@@ -15,7 +15,7 @@ constexpr double kOneSided = 1.645;  // standard deviations of the prior: 5 % of
 
 }  // namespace
 
-double AirBalance::most() const { return expected.force * std::exp(kOneSided * expected.prior.log_std); }
+double AirBalance::most() const { return expected.force * std::exp(kOneSided * expected.log_std); }
 
 std::optional<AirBalance> air_balance(const FlightRecord& record, const FlightFit& fit) {
   if (record.layout.v_dot < 0) return std::nullopt;

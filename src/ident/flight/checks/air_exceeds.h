@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ident/flight/checks/gusts_expected.h"
 #include "ident/flight/fit/fit.h"
-#include "ident/flight/record/gusts_expected.h"
 #include "ident/result/result.h"
 
 namespace ident {

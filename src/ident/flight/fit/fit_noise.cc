@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "ident/flight/conditioning/estimator_drift.h"
-#include "ident/flight/record/gusts_expected.h"
 #include "ident/flight/smoother/input_error.h"
 
 namespace ident {
@@ -55,7 +54,6 @@ NoiseModel initial_noise(const FlightRecord& record) {
   air.w_dot.fill({0.2 * w, 0.1});
   air.v_dot.fill({0.1 * v, 0.5});
   noise.air.assign(static_cast<std::size_t>(record.logs), air);
-  if (record.vehicle->air) noise.stated = gusts_expected(record).prior;
   noise.slow = record.slow;
   noise.q_motor = record.signals.rotor_speeds ? 1.0 : 0.0;
   return noise;

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "ident/flight/kernel/kernel.h"
@@ -31,19 +30,11 @@ struct AirNoise {
   std::array<ColouredNoise, 3> v_dot;  ///< acceleration along the axes of NoiseModel::axes, m/s^2
 };
 
-/// What gusts of the stated air do to the vehicle: standard deviations of AirNoise, with the uncertainty of
-/// their logarithm.
-struct AirPrior {
-  std::array<double, 3> w_dot{}, v_dot{};
-  double log_std = 1.0;
-};
-
 /// White noise of every channel, slow errors of estimated signals, and the process noise. The sensors are the
 /// same in all logs, the air is not.
 struct NoiseModel {
   std::array<double, kChannels> sigma{};
   std::vector<AirNoise> air;        ///< by log
-  std::optional<AirPrior> stated;   ///< of the air of every log; none: estimated freely
   SlowErrors slow{};                ///< of estimated attitude, velocity, position
   double q_motor = 0.0;             ///< spectral density on rotor speeds, (rad/s)^2/s
   GustAxes axes = GustAxes::world;  ///< of all v_dot

@@ -50,10 +50,9 @@ struct VarianceStep {
   bool nothing;
 
   /// `square`: squared innovations over their variance. `told`: how many of the `count` innovations the data
-  /// determine. `pull`: how far a prior draws the variance, (28); it counts as so many innovations.
-  VarianceStep(double square, double told, double count, double pull = 0.0) {
-    const double below = std::max(-pull, 0.0), above = std::max(pull, 0.0);
-    ratio = std::clamp((square + below) / (std::max(told, kHardlyTold * count) + above), 0.02, 50.0);
+  /// determine.
+  VarianceStep(double square, double told, double count) {
+    ratio = std::clamp(square / std::max(told, kHardlyTold * count), 0.02, 50.0);
     nothing = ratio < 1 && told < kHardlyTold * count;
   }
   double change() const { return nothing ? 0.0 : std::abs(std::sqrt(ratio) - 1); }
@@ -82,11 +81,11 @@ struct ProcessMoments {
   }
 
   /// Updates tau by expectation maximisation, lengthened by `pace`, and sigma by MacKay's fixed point.
-  /// Returns the relative change of sigma. `pull` as in VarianceStep.
-  double update(ColouredNoise& noise, Pace& pace, double slowest, double pull = 0.0) const {
+  /// Returns the relative change of sigma.
+  double update(ColouredNoise& noise, Pace& pace, double slowest) const {
     if (links < 8 || noise.sigma <= 0) return 0;
     const double h = seconds / links, variance = noise.sigma * noise.sigma;
-    const VarianceStep step(square, count - unknown, count, pull);
+    const VarianceStep step(square, count - unknown, count);
     const double carried = std::clamp(cross / (0.5 * (now + next)), 0.01, 0.998);
     const double tau = std::clamp(-h / std::log(carried), 0.3 * h, slowest);
     noise.sigma *= std::sqrt(step.ratio);
@@ -116,11 +115,6 @@ struct MotorMoments {
     return q_motor > kLeastMotor ? step.change() : 0;
   }
 };
-
-// Half gradient of a log-normal prior of sigma over log sigma^2, (28): above 0 where sigma is above it.
-double pull_of(double sigma, double expected, double log_std) {
-  return std::log(sigma / expected) / (log_std * log_std);
-}
 
 }  // namespace
 
@@ -181,15 +175,8 @@ double FlightSmoother::update_noise(const LinkMoments& moments, NoisePaces& pace
   for (std::size_t log = 0; log < moments.logs.size(); ++log)
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& [turn, push] = moments.logs[log];
-      auto& [w_dot, v_dot] = noise_.air[log];
-      double pull_turn = 0, pull_push = 0;
-      if (noise_.stated) {
-        const AirPrior& prior = *noise_.stated;
-        pull_turn = pull_of(w_dot[i].sigma, prior.w_dot[i], prior.log_std);
-        pull_push = pull_of(v_dot[i].sigma, prior.v_dot[i], prior.log_std);
-      }
-      change = std::max({change, turn[i].update(w_dot[i], paces.logs[log][i], kSlowest, pull_turn),
-                         push[i].update(v_dot[i], paces.logs[log][3 + i], kSlowest, pull_push)});
+      change = std::max({change, turn[i].update(noise_.air[log].w_dot[i], paces.logs[log][i], kSlowest),
+                         push[i].update(noise_.air[log].v_dot[i], paces.logs[log][3 + i], kSlowest)});
     }
   for (std::size_t g = 0; g < kShownGroups; ++g)
     for (std::size_t i = 0; i < 3 && record_->layout.shown_error[g] >= 0; ++i) {
