@@ -11,7 +11,9 @@ namespace {
 
 GustsExpected expected_of(Vehicle vehicle, std::optional<AirLevel> air) {
   vehicle.air = air;
-  return gusts_expected(testing::hover_record(vehicle, vehicle, 2.0));
+  FlightRecord record;
+  record.vehicle = &vehicle, record.p = parameter_vector(vehicle);
+  return gusts_expected(record);
 }
 
 // 0.3 1/s across and 0.5 1/s along, per mass: m sqrt(2 (0.3 1.489)^2 + (0.5 0.772)^2) = 0.740 m N.

@@ -13,11 +13,11 @@ constexpr std::array<double, 3> kUsual{0.3, 0.3, 0.5};
 // drag that nobody stated varies by 1.6.
 constexpr double kOfStatedDrag = 2.0, kOfUsualDrag = 2.5;
 constexpr double kFarFromGround = 10.0;  // m
-constexpr double kSomeDrag = 1e-3;       // 1/s: less is none
+constexpr double kSomeDrag = 0.05;       // 1/s: less is what rotor drag does along a slanted axis, or none
 
 using Axes = std::array<double, 3>;
 
-// Change of acceleration by a gust along each axis, as the stated model has it, (26).
+// Change of acceleration by a gust along each axis, as the stated model has it, (31).
 Axes answer_of_model(const FlightRecord& record, const Axes& gust) {
   const std::vector<double>& p = record.p;
   const EffectSet<double> effects(p, active_effects(p));
@@ -59,7 +59,7 @@ GustsExpected gusts_expected(const FlightRecord& record) {
   }
   return {.level = level,
           .stated = vehicle.air.has_value(),
-          .force = record.p[param::m] * std::sqrt(square),  // (26)
+          .force = record.p[param::m] * std::sqrt(square),  // (31)
           .log_std = std::log(all_stated ? kOfStatedDrag : kOfUsualDrag)};
 }
 

@@ -1,10 +1,10 @@
 // What gusts of the stated air do to a vehicle that hovers.
 //
-//   F = m sqrt(sum_i v_dot_i^2) ,  v_dot_i: change of the acceleration by a gust of one deviation along axis
-//   i   (26)
+//   F = m sqrt(v_dot_x^2 + v_dot_y^2 + v_dot_z^2)   (31)
 //
-// v_dot follows from the drag that the vehicle file states. Where it states none along an axis, a usual one
-// takes its place: 0.3 1/s across the rotors and 0.5 1/s along them, per mass.
+// v_dot_i is the change of the acceleration by a gust of one standard deviation along axis i. It follows from
+// the drag that the vehicle file states. Where it states none along an axis, a usual one takes its place:
+// 0.3 1/s across the rotors and 0.5 1/s along them, per mass.
 #pragma once
 
 #include "ident/flight/record/flight_record.h"
