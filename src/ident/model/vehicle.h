@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/model/air_level.h"
 #include "ident/result/correlation.h"
 #include "ident/result/finding.h"
 
@@ -49,6 +50,7 @@ struct Vehicle {
   std::optional<double> air_density;       ///< kg/m^3
   double ground_z = 0.0;                   ///< NED z of the ground, m
   std::optional<double> battery_voltage;   ///< V at which km holds (battery_sag's v0)
+  std::optional<AirLevel> air;             ///< how much it moves, where the file states it
   Signs signs = Signs::first_principles;
   std::map<std::string, Known> parameters;
   Correlation correlation;        ///< of what is known of those with a standard deviation

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "ident.yaml";
 constexpr double kCorrected = 5.0;  // standard deviations, beyond what chance does
-const std::vector<std::string> kKeys = {"vehicle", "parameters", "thrust", "motor", "inertia", "map", "logs"};
+const std::vector<std::string> kKeys = {"vehicle", "parameters", "thrust", "motor",
+                                        "inertia", "map",        "logs",   "air"};
 
 /// The path of a file that a value names; it has to exist unless it is still to be written.
 std::string named_file(const YamlValue& value, const fs::path& folder, bool has_to_exist = true) {
@@ -84,6 +85,7 @@ Campaign read_campaign(const std::string& folder) {
   campaign.file = (place / kFile).lexically_normal().string();
   const YamlValue file = load_yaml(campaign.file);
   file.expect_map(kKeys);
+  if (file.has("air")) campaign.air = read_air(file.at("air"));
   campaign.vehicle = named_file(file.at("vehicle"), place);
   campaign.parameters = file.has("parameters") ? named_file(file.at("parameters"), place, false)
                                                : (place / "parameters.yaml").lexically_normal().string();
@@ -104,6 +106,7 @@ Vehicle campaign_vehicle(const Campaign& campaign) {
 
 Vehicle campaign_vehicle(const Campaign& campaign, const Vehicle& found) {
   Vehicle vehicle = read_vehicle(campaign.vehicle);
+  if (campaign.air) vehicle.air = campaign.air;  // of these flights; the vehicle file may serve others
   const std::vector<Warning> warnings = stated_otherwise(vehicle, found);
   vehicle.warnings.insert(vehicle.warnings.end(), warnings.begin(), warnings.end());
   return with_parameters(std::move(vehicle), found);

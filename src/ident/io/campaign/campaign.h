@@ -23,6 +23,7 @@ struct CampaignLog {
 ///   thrust: [sweep1.csv, sweep2.csv]     # bench files: one name or a list
 ///   motor: steps.csv
 ///   inertia: pendulum.csv
+///   air: calm                            # how much it moves, in place of what the vehicle file states
 ///   map: crazyflie.yaml                  # map of all logs that name no other
 ///   logs:                                # names, or a name with a map of its own
 ///     - hover.csv
@@ -31,6 +32,7 @@ struct Campaign {
   std::string file;  ///< ident.yaml itself
   std::string vehicle;
   std::string parameters;  ///< need not exist yet
+  std::optional<AirLevel> air;
   std::vector<std::string> thrust, motor, inertia;
   std::vector<CampaignLog> logs;
 };

@@ -2,6 +2,7 @@
 #include "ident/io/vehicle/vehicle_read.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
@@ -22,10 +23,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const Words kVehicleKeys = {"name",        "gravity",         "mass",        "command",
-                            "rotors",      "layout",          "arm",         "slant_deg",
-                            "ground",      "signs",           "parameters",  "propeller_radius",
-                            "air_density", "battery_voltage", "correlations"};
+const Words kVehicleKeys = {"name",        "gravity",         "mass",         "command",
+                            "rotors",      "layout",          "arm",          "slant_deg",
+                            "ground",      "signs",           "parameters",   "propeller_radius",
+                            "air_density", "battery_voltage", "correlations", "air"};
 const Words kKnownKeys = {"value", "std"};
 const Words kRotorKeys = {"position", "axis", "spin"};
 
@@ -169,6 +170,7 @@ void read_numbers(const YamlValue& file, Vehicle& vehicle) {
   if (file.has("ground")) vehicle.ground_z = file.at("ground").number();
   if (file.has("propeller_radius")) vehicle.propeller_radius = file.at("propeller_radius").positive_number();
   if (file.has("air_density")) vehicle.air_density = file.at("air_density").positive_number();
+  if (file.has("air")) vehicle.air = read_air(file.at("air"));
   if (file.has("battery_voltage")) vehicle.battery_voltage = file.at("battery_voltage").positive_number();
 }
 
@@ -202,6 +204,12 @@ void expect_computable(const YamlValue& file, const Vehicle& vehicle) {
 }
 
 }  // namespace
+
+AirLevel read_air(const YamlValue& value) {
+  const std::string word = value.text();
+  if (const auto level = air_level(word)) return *level;
+  value.fail(fmt::format("'{}' is no level of the air: {}", word, fmt::join(kAirWords, ", ")));
+}
 
 Vehicle read_vehicle(const std::string& path, VehicleUse use) {
   constexpr std::size_t kLargestFile = 16u << 20;

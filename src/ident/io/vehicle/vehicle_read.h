@@ -7,6 +7,9 @@ namespace ident {
 
 class YamlValue;
 
+/// The level that a value of `air:` names.
+AirLevel read_air(const YamlValue& value);
+
 /// Reads a vehicle or parameter file. Throws InputError `file:line: key: what`.
 /// `mass` becomes parameter `m`, `gravity` (or `parameters.g`) `Vehicle::g`, `slant_deg` parameter `alpha` in
 /// rad. Two effects are stored under another name than in the file:

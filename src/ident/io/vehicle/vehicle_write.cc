@@ -89,6 +89,7 @@ std::string vehicle_to_yaml(const Vehicle& vehicle) {
   if (vehicle.propeller_radius) out += fmt::format("propeller_radius: {}\n", *vehicle.propeller_radius);
   if (vehicle.air_density) out += fmt::format("air_density: {}\n", *vehicle.air_density);
   if (vehicle.battery_voltage) out += fmt::format("battery_voltage: {}\n", *vehicle.battery_voltage);
+  if (vehicle.air) out += fmt::format("air: {}\n", word_of(*vehicle.air));
   if (vehicle.ground_z != 0.0) out += fmt::format("ground: {}\n", vehicle.ground_z);
   if (vehicle.signs == Signs::as_published) out += "signs: as_published\n";
   out += parameter_lines(vehicle.parameters, axes_written);
