@@ -56,9 +56,9 @@ Result compare_flights(const Vehicle& vehicle, std::span<const FlightLog> real,
       of_both(named_causes(flown, vehicle), named_causes(computed, vehicle));
   if (options.progress) options.progress(0.8, "both logs with the same causes");
   const ComparedFit a = compared_fit(vehicle, real, causes), b = compared_fit(vehicle, simulated, causes);
-  std::set<std::string> material = material_causes(flown);
-  material.merge(material_causes(computed));
-  const std::vector<ComparedCause> compared = differences(a, b, material);
+  ComparisonRules rules{material_causes(flown), !has_rest(flown) && !has_rest(computed)};
+  rules.material.merge(material_causes(computed));
+  const std::vector<ComparedCause> compared = differences(a, b, rules);
   Sides sides{flown, computed, a.not_shown};
   for (const std::string& name : b.not_shown)
     if (std::ranges::find(sides.not_shown, name) == sides.not_shown.end()) sides.not_shown.push_back(name);

@@ -1,11 +1,14 @@
-// Test (2) for causes that a side names, then a forward selection by (3) over the constants of the vehicle.
+// Forward selection over the causes by equation (2), each held against chance over all looks.
 #include "ident/gap/comparison/differences.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "ident/core/statistics.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/gap/verdict/decision.h"
 
 namespace ident {
@@ -14,32 +17,50 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Set = std::vector<std::size_t>;
 
 // Probability that anything is named where nothing differs, over all looks. [-]
 constexpr double kFalseAlarm = 0.01;
-// Of its own value by which a constant differs that no side names. [-] Benches tell less apart.
+// Of its own value by which a constant has to differ. [-] Benches tell less apart.
 constexpr double kMaterialConstant = 0.03;
-constexpr int kMostConstants = 4;
+constexpr std::size_t kMostDifferences = 6;
+constexpr std::string_view kConstant = "parameter:";
+
+// Fall of the misfit from which one explanation is told and the other one is not.
+const double kToldApart = 2 * std::log(1 / kTold);
+
+bool contains(const Set& set, std::size_t k) { return std::ranges::find(set, k) != set.end(); }
+
+// The two constants of the motors' lag are one cause, of which the first in order is the name.
+bool are_of_lag(const std::string& a, const std::string& b) {
+  return traits_of(a).of_lag && traits_of(b).of_lag;
+}
+
+struct Group {
+  std::string name;
+  std::vector<Index> at;
+  bool named;  ///< by a side, and so free of its prior in both fits
+};
 
 // What both fits have, in one order.
 struct Common {
-  std::vector<ComparedName> names;
+  std::vector<std::string> names;
   VectorXd real, simulated, d;
   MatrixXd C_real, C_simulated, S, response;
-  std::vector<std::string> causes;  ///< names, each once; constants of the vehicle as parameter:NAME
+  std::vector<Group> groups;
 
-  std::string cause(Index i) const {
-    const ComparedName& name = names[static_cast<std::size_t>(i)];
-    return name.cause.empty() ? "parameter:" + name.constant : name.cause;
-  }
-  std::vector<Index> constants_of(const std::string& of) const {
-    std::vector<Index> out;
-    for (Index i = 0; i < d.size(); ++i)
-      if (cause(i) == of) out.push_back(i);
-    return out;
-  }
-  bool under_prior(Index i) const { return names[static_cast<std::size_t>(i)].cause.empty(); }
+  double size(Index i) const { return std::max(std::abs(real[i]), std::abs(simulated[i])); }
 };
+
+void add_to_groups(std::vector<Group>& groups, const ComparedName& name, Index i) {
+  const bool named = !name.cause.empty();
+  const std::string cause = named ? name.cause : std::string(kConstant) + name.constant;
+  const auto group = std::ranges::find(groups, cause, &Group::name);
+  if (group == groups.end())
+    groups.push_back({cause, {i}, named});
+  else
+    group->at.push_back(i);
+}
 
 Common common(const ComparedFit& real, const ComparedFit& simulated) {
   std::vector<Index> a, b;
@@ -47,165 +68,152 @@ Common common(const ComparedFit& real, const ComparedFit& simulated) {
   for (std::size_t i = 0; i < real.names.size(); ++i) {
     const auto there = std::ranges::find(simulated.names, real.names[i].constant, &ComparedName::constant);
     if (there == simulated.names.end()) continue;
+    add_to_groups(out.groups, real.names[i], static_cast<Index>(a.size()));
     a.push_back(static_cast<Index>(i)), b.push_back(there - simulated.names.begin());
-    out.names.push_back(real.names[i]);
+    out.names.push_back(real.names[i].constant);
   }
   out.real = real.value(a), out.simulated = simulated.value(b);
   out.d = out.real - out.simulated;  // (1)
   out.C_real = real.covariance(a, a), out.C_simulated = simulated.covariance(b, b);
   out.S = out.C_real + out.C_simulated;
   out.response = 0.5 * (real.response(a, a) + simulated.response(b, b));
-  for (Index i = 0; i < out.d.size(); ++i)
-    if (std::ranges::find(out.causes, out.cause(i)) == out.causes.end()) out.causes.push_back(out.cause(i));
   return out;
 }
 
-ComparedCause compared(const Common& all, const std::string& cause) {
-  ComparedCause out{.name = cause};
-  const std::vector<Index> at = all.constants_of(cause);
-  for (const Index i : at)
-    out.constants.push_back({.name = all.names[static_cast<std::size_t>(i)].constant,
+ComparedCause compared(const Common& all, const Group& group) {
+  ComparedCause out{.name = group.name};
+  for (const Index i : group.at)
+    out.constants.push_back({.name = all.names[static_cast<std::size_t>(i)],
                              .real = all.real[i],
                              .real_std = std::sqrt(all.C_real(i, i)),
                              .simulated = all.simulated[i],
                              .simulated_std = std::sqrt(all.C_simulated(i, i)),
                              .difference = all.d[i],
                              .std = std::sqrt(all.S(i, i))});
-  const VectorXd d = all.d(at);
-  const double square = d.dot(MatrixXd(all.S(at, at)).ldlt().solve(d));  // (2)
-  if (std::isfinite(square)) out.p = 1.0 - chi2_cdf(square, static_cast<double>(at.size()));
+  const VectorXd d = all.d(group.at);
+  const double square = d.dot(MatrixXd(all.S(group.at, group.at)).ldlt().solve(d));
+  if (std::isfinite(square)) out.p = 1.0 - chi2_cdf(square, static_cast<double>(group.at.size()));
   return out;
 }
 
-// Equation (3) over the rows that no named difference explains.
+// Equation (2), divided by the noise: S = L L'.
 class Selection {
  public:
-  Selection(const Common& all, const std::vector<Index>& rows) {
-    // Scaled by their deviations: units differ by many orders of magnitude.
-    const VectorXd scale = all.S.diagonal()(rows).cwiseSqrt();
-    MatrixXd S =
-        scale.cwiseInverse().asDiagonal() * MatrixXd(all.S(rows, rows)) * scale.cwiseInverse().asDiagonal();
-    const Eigen::LLT<MatrixXd> llt(S);
-    valid_ = llt.info() == Eigen::Success;
-    if (!valid_) return;
-    d_ = llt.matrixL().solve(VectorXd(all.d(rows).cwiseQuotient(scale)));
-    for (const Index i : rows) {
-      if (!all.under_prior(i)) continue;
-      places_.push_back(i);
-      columns_.push_back(llt.matrixL().solve(VectorXd(all.response.col(i)(rows).cwiseQuotient(scale))));
+  Selection(const Common& all, const ComparisonRules& rules) : all_(all), rules_(rules) {
+    const VectorXd scale = all.S.diagonal().cwiseSqrt().cwiseInverse();  // units differ by many decades
+    const Eigen::LLT<MatrixXd> llt(scale.asDiagonal() * all.S * scale.asDiagonal());
+    if (llt.info() != Eigen::Success) return;
+    d_ = llt.matrixL().solve(scale.cwiseProduct(all.d));
+    G_ = llt.matrixL().solve(MatrixXd(scale.asDiagonal() * all.response));
+    while (set_.size() < kMostDifferences && add_one()) continue;
+  }
+
+  const Set& set() const { return set_; }
+
+  bool is_material(std::size_t k, const Set& rest) const {
+    const Group& group = all_.groups[k];
+    if (!group.name.starts_with(kConstant)) return rules_.material.contains(group.name);
+    return std::abs(size_of(k, rest).first) > kMaterialConstant * all_.size(group.at.front());
+  }
+
+  // Size and deviation of the first constant of a cause beside others.
+  std::pair<double, double> size_of(std::size_t k, const Set& rest) const {
+    Set order{k};
+    for (const std::size_t other : rest)
+      if (other != k) order.push_back(other);
+    const MatrixXd G = columns(order),
+                   C = (G.transpose() * G).completeOrthogonalDecomposition().pseudoInverse();
+    return {(C * (G.transpose() * d_))[0], std::sqrt(C(0, 0))};
+  }
+
+  std::vector<std::string> alternatives_to(std::size_t chosen) const {
+    Set rest = set_;
+    std::erase(rest, chosen);
+    const double there = explained(set_);
+    std::vector<std::string> out;
+    for (std::size_t k = 0; k < all_.groups.size(); ++k) {
+      if (contains(set_, k) || !may_be_tried(k) || are_of_lag(name(k), name(chosen))) continue;
+      Set other = rest;
+      other.push_back(k);
+      if (explained(other) > there - kToldApart && is_material(k, rest)) out.push_back(name(k));
     }
-  }
-
-  bool valid() const { return valid_; }
-  std::size_t size() const { return places_.size(); }
-  Index place(std::size_t k) const { return places_[k]; }
-
-  // What a set explains of d' S^-1 d.
-  double explained(const std::vector<std::size_t>& set) const {
-    if (set.empty()) return 0.0;
-    const MatrixXd G = matrix(set);
-    const double gain = d_.dot(G * G.colPivHouseholderQr().solve(d_));
-    return std::isfinite(gain) ? gain : 0.0;
-  }
-  // Size and deviation of the last one of a set.
-  std::pair<double, double> last(const std::vector<std::size_t>& set) const {
-    const MatrixXd G = matrix(set);
-    const MatrixXd C = (G.transpose() * G).inverse();
-    const VectorXd delta = C * (G.transpose() * d_);
-    return {delta.tail<1>()[0], std::sqrt(C.bottomRightCorner<1, 1>()(0, 0))};
+    return out;
   }
 
  private:
-  MatrixXd matrix(const std::vector<std::size_t>& set) const {
-    MatrixXd G(d_.size(), static_cast<Index>(set.size()));
-    for (std::size_t k = 0; k < set.size(); ++k) G.col(static_cast<Index>(k)) = columns_[set[k]];
-    return G;
+  const std::string& name(std::size_t k) const { return all_.groups[k].name; }
+
+  // The other constant of a lag that a side names is no further cause.
+  bool may_be_tried(std::size_t k) const {
+    if (all_.groups[k].named) return true;
+    return rules_.constants && std::ranges::none_of(all_.groups, [&](const Group& g) {
+             return g.named && are_of_lag(g.name, name(k));
+           });
   }
 
-  bool valid_ = false;
+  MatrixXd columns(const Set& set) const {
+    std::vector<Index> at;
+    for (const std::size_t k : set) at.insert(at.end(), all_.groups[k].at.begin(), all_.groups[k].at.end());
+    return G_(Eigen::all, at);
+  }
+
+  double explained(const Set& set) const {
+    if (set.empty()) return 0.0;
+    const MatrixXd G = columns(set);
+    const double gain = d_.dot(G * G.completeOrthogonalDecomposition().solve(d_));
+    return std::isfinite(gain) ? gain : 0.0;
+  }
+
+  bool is_beyond_chance(std::size_t k, double gain) const {
+    const Group& group = all_.groups[k];
+    if (!group.named) return gain > kBeyondChance * kBeyondChance;
+    const double p = 1.0 - chi2_cdf(gain, static_cast<double>(group.at.size()));
+    return p < kFalseAlarm / static_cast<double>(all_.groups.size());
+  }
+
+  bool add_one() {
+    std::size_t best = all_.groups.size();
+    double most = 0;
+    for (std::size_t k = 0; k < all_.groups.size(); ++k) {
+      if (contains(set_, k) || !may_be_tried(k)) continue;
+      Set with = set_;
+      with.push_back(k);
+      const double gain = explained(with) - explained(set_);
+      // What a side names goes before what only takes its place; the first constant of a lag before the
+      // other.
+      const double bonus = all_.groups[k].named ? kToldApart : 0.0;
+      const bool same_lag = best < all_.groups.size() && are_of_lag(name(best), name(k));
+      const bool passes = is_beyond_chance(k, gain) && (all_.groups[k].named || is_material(k, set_));
+      if (passes && gain + bonus > most + (same_lag ? kToldApart : 0.0)) most = gain + bonus, best = k;
+    }
+    if (best == all_.groups.size()) return false;
+    set_.push_back(best);
+    return true;
+  }
+
+  const Common& all_;
+  const ComparisonRules& rules_;
   VectorXd d_;
-  std::vector<Index> places_;
-  std::vector<VectorXd> columns_;
+  MatrixXd G_;
+  Set set_;
 };
-
-// Whether the last one of a set differs by more than a small part of itself.
-bool is_material(const Selection& selection, const Common& all, const std::vector<std::size_t>& set) {
-  const Index i = selection.place(set.back());
-  const double size = std::max(std::abs(all.real[i]), std::abs(all.simulated[i]));
-  return std::abs(selection.last(set).first) > kMaterialConstant * size;
-}
-
-// The constant that explains most beside a set; size() where none does beyond chance.
-std::size_t next(const Selection& selection, const Common& all, const std::vector<std::size_t>& set) {
-  std::size_t best = selection.size();
-  double most = kBeyondChance * kBeyondChance;
-  for (std::size_t k = 0; k < selection.size(); ++k) {
-    std::vector<std::size_t> with = set;
-    with.push_back(k);
-    const double gain = selection.explained(with) - selection.explained(set);
-    if (std::ranges::find(set, k) == set.end() && gain > most && is_material(selection, all, with))
-      most = gain, best = k;
-  }
-  return best;
-}
-
-std::vector<std::string> alternatives_to(std::size_t chosen, const std::vector<std::size_t>& set,
-                                         const Selection& selection, const Common& all) {
-  const double told = 2 * std::log(1 / kTold), there = selection.explained(set);
-  std::vector<std::size_t> rest = set;
-  std::erase(rest, chosen);
-  std::vector<std::string> out;
-  for (std::size_t k = 0; k < selection.size(); ++k) {
-    if (std::ranges::find(set, k) != set.end()) continue;
-    std::vector<std::size_t> other = rest;
-    other.push_back(k);
-    if (selection.explained(other) > there - told && is_material(selection, all, other))
-      out.push_back(all.cause(selection.place(k)));
-  }
-  return out;
-}
-
-void select_constants(const Common& all, const std::vector<Index>& rows, std::vector<ComparedCause>& causes) {
-  const Selection selection(all, rows);
-  if (!selection.valid()) return;
-  std::vector<std::size_t> set;
-  while (static_cast<int>(set.size()) < kMostConstants) {
-    const std::size_t k = next(selection, all, set);
-    if (k == selection.size()) break;
-    set.push_back(k);
-  }
-  for (const std::size_t k : set) {
-    std::vector<std::size_t> order = set;
-    std::erase(order, k);
-    const double gain = selection.explained(set) - selection.explained(order);
-    order.push_back(k);
-    ComparedCause& cause = *std::ranges::find(causes, all.cause(selection.place(k)), &ComparedCause::name);
-    cause.differs = true;
-    cause.p = 1.0 - chi2_cdf(gain, 1.0);
-    std::tie(cause.constants[0].difference, cause.constants[0].std) = selection.last(order);
-    cause.alternatives = alternatives_to(k, set, selection, all);
-  }
-}
 
 }  // namespace
 
 std::vector<ComparedCause> differences(const ComparedFit& real, const ComparedFit& simulated,
-                                       const std::set<std::string>& named) {
+                                       const ComparisonRules& rules) {
   const Common all = common(real, simulated);
   std::vector<ComparedCause> out;
-  std::vector<Index> rows;  // that no named difference explains
-  for (const std::string& cause : all.causes) {
-    out.push_back(compared(all, cause));
-    const std::vector<Index> at = all.constants_of(cause);
-    if (all.under_prior(at.front())) {
-      rows.push_back(at.front());
-      continue;
-    }
-    out.back().differs =
-        named.contains(cause) && out.back().p < kFalseAlarm / static_cast<double>(all.causes.size());
-    if (!out.back().differs) rows.insert(rows.end(), at.begin(), at.end());
+  for (const Group& group : all.groups) out.push_back(compared(all, group));
+  const Selection selection(all, rules);
+  for (const std::size_t k : selection.set()) {
+    out[k].differs = selection.is_material(k, selection.set());
+    if (!out[k].differs) continue;  // it takes its part of d, and is not worth a name
+    out[k].alternatives = selection.alternatives_to(k);
+    if (all.groups[k].named) continue;
+    ComparedConstant& constant = out[k].constants.front();
+    std::tie(constant.difference, constant.std) = selection.size_of(k, selection.set());
   }
-  select_constants(all, rows, out);
   return out;
 }
 

@@ -30,11 +30,6 @@ void add_confused(const Diagnosis& side, const std::string& cause, Judged& out) 
     if (!contains(out.confused_with, other)) out.confused_with.push_back(other);
 }
 
-bool has_rest(const Diagnosis& side) {
-  const std::string status = verdict_of(side).at("status");
-  return status == "partly" || status == "unknown";
-}
-
 // "m 0.500 ± 0.003 kg flown, 0.460 ± 0.002 kg simulated".
 std::string sizes(const ComparedCause& cause) {
   Names out;
@@ -74,6 +69,11 @@ std::string sentence_of(const Judged& verdict, const std::vector<ComparedCause>&
 }
 
 }  // namespace
+
+bool has_rest(const Diagnosis& side) {
+  const std::string status = verdict_of(side).at("status");
+  return status == "partly" || status == "unknown";
+}
 
 std::vector<Candidate> named_causes(const Diagnosis& diagnosis, const Vehicle& stated) {
   std::vector<Candidate> out;

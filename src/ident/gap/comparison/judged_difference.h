@@ -17,6 +17,9 @@ std::vector<Candidate> named_causes(const Diagnosis& diagnosis, const Vehicle& s
 /// Those of them with a material share of the gap.
 std::set<std::string> material_causes(const Diagnosis& diagnosis);
 
+/// Whether something acts in these logs of which no cause is certain.
+bool has_rest(const Diagnosis& diagnosis);
+
 /// Both sides, each with the same set of causes.
 struct Sides {
   const Diagnosis &real, &simulated;
