@@ -1,8 +1,6 @@
 // `ident export`: a vehicle as a simulator's file, into the user's own one, or as samples.
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "command.h"
 #include "ident/io/campaign/campaign.h"
 #include "ident/io/file/read_bytes.h"
@@ -38,16 +36,6 @@ Vehicle exported_vehicle(const Options& options, Context& context) {
   if (options.params.empty()) return vehicle;
   context.used.push_back(options.params);
   return with_parameters(vehicle, read_vehicle(options.params));
-}
-
-/// A byte order mark is no part of the text, and is kept.
-std::string byte_order_mark(const std::string& path) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  std::ifstream file(path, std::ios::binary);
-  std::string first(kMark.size(), ' ');
-  return file.read(first.data(), static_cast<std::streamsize>(first.size())) && first == kMark
-             ? first
-             : std::string();
 }
 
 Outcome run(const Options& options, Context& context) {

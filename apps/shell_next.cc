@@ -52,7 +52,8 @@ std::string logs_of(const Result& result) {
 std::string next_with_files(const Result& result, const std::vector<std::string>& words) {
   const std::string vehicle = option_value(words, "--vehicle", "VEHICLE.yaml");
   if (result.command == "gap") {
-    const std::string better = option_value(words, "--write-params", "");
+    if (has(words, "--simulated")) return "";
+    const std::string better = option_value(words, "--fix", option_value(words, "--write-params", ""));
     if (!better.empty()) return "ident gap" + logs_of(result) + " --vehicle " + better;
     const bool named = !result.extra.at("verdict").at("effects").empty();
     return named ? "ident gap" + logs_of(result) + " --vehicle " + vehicle + " --write-params better.yaml"

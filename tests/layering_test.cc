@@ -74,6 +74,8 @@ constexpr std::array kFolders{"core",
                               "gap/verdict",
                               "gap/views",
                               "gap",
+                              "gap/fix",
+                              "gap/comparison",
                               "report"};
 
 /// Files in a folder above which it is no topic any more.

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 
 #include "ident/core/error.h"
@@ -25,6 +26,14 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
 }
 
 }  // namespace
+
+std::string byte_order_mark(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string first(kByteOrderMark.size(), ' ');
+  return file.read(first.data(), static_cast<std::streamsize>(first.size())) && first == kByteOrderMark
+             ? first
+             : std::string();
+}
 
 void refuse_no_text(const std::string& path, std::string_view first) {
   const auto refuse = [&](std::string_view what) { throw InputError(path, 1, "", what); };

@@ -21,6 +21,10 @@ struct Edit {
 // What a quotient of numbers of 13 digits may be off: no reason to touch a value.
 bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
+bool says_the_same(const Value& a, const Value& b) {
+  return a.name == b.name && a.word == b.word && std::ranges::equal(a.numbers, b.numbers, same);
+}
+
 std::string joined(const Value& value, std::string_view separator) {
   std::string out;
   for (const double number : value.numbers)
@@ -54,7 +58,7 @@ void edit_field(const Fields& fields, const Value& value, std::vector<Edit>& edi
 }  // namespace
 
 SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string& text,
-                                const std::string& file, const Vehicle& vehicle) {
+                                const std::string& file, const Vehicle& vehicle, const Vehicle* unchanged) {
   if (!format.recognises)
     throw UsageError(fmt::format("--into: files of {} are only written, not patched", format.target));
   if (!format.recognises(text))
@@ -66,7 +70,10 @@ SimulatorExport patch_simulator(const SimulatorFormat& format, const std::string
   if (format.remarks)
     for (std::string& remark : format.remarks(vehicle, out.reduced)) out.lost.push_back(std::move(remark));
   std::vector<Edit> edits;
+  const std::vector<Value> as_before =
+      unchanged ? format.values(held_by(format, *unchanged), &fields) : std::vector<Value>();
   for (const Value& value : format.values(out.reduced, &fields)) {
+    if (std::ranges::any_of(as_before, [&](const Value& v) { return says_the_same(v, value); })) continue;
     if (fields.has(value.name) && !fields.at(value.name).elsewhere.empty()) {
       std::vector<Edit> there;
       edit_field(fields, value, there);

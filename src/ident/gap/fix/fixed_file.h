@@ -1,0 +1,23 @@
+// The file of a vehicle, a simulator's or YAML, with the values that were identified.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ident/io/simulators/changes.h"
+
+namespace ident {
+
+struct FixedFile {
+  std::string text;
+  std::string format;               ///< the simulator's target; "vehicle" for YAML
+  std::vector<FileChange> changes;  ///< in the file's own names
+  std::vector<std::string> lost;    ///< what the file cannot hold
+  std::vector<std::string> notes;   ///< entries that could not be placed, and what is not kept
+};
+
+/// The vehicle file at `path`, which states `stated`, with the values of `identified`. Of a simulator's file
+/// nothing but the values that differ changes; YAML is written anew. Throws InputError.
+FixedFile fixed_file(const std::string& path, const Vehicle& stated, const Vehicle& identified);
+
+}  // namespace ident
