@@ -2,8 +2,8 @@
 //
 // A prediction starts from a measured state and is compared with another one, so that a perfect model errs by
 //
-//   floor^2 = 2 sum sigma^2                               of velocity and of rates (1) floor^2 = 2 sum
-//   sigma^2 + T^2 sum sigma_gyro^2        of attitude, T seconds ahead                      (2)
+// (1) velocity and rates: floor^2 = 2 sum sigma^2
+// (2) attitude, T seconds ahead: floor^2 = 2 sum sigma^2 + T^2 sum sigma_gyro^2
 //
 // with sums over three axes, to first order in the noise of the sensors. Gusts and the noise of motors come
 // on top and grow with T.
