@@ -5,6 +5,7 @@
 #include "ident/gap/diagnose.h"
 #include "ident/gap/fix/fix_view.h"
 #include "ident/gap/fix/identified_vehicle.h"
+#include "ident/gap/fix/vaguely_stated.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/io/vehicle/vehicle_write.h"
 
@@ -41,7 +42,8 @@ void refuse_without_sense(const Options& options) {
 
 Outcome run(const Options& options, Context& context) {
   refuse_without_sense(options);
-  const FlightInput input = flown_input(options.flight, context);
+  FlightInput input = flown_input(options.flight, context);
+  if (!options.fix.empty()) input.vehicle = vaguely_stated(std::move(input.vehicle));
   std::vector<FlightLog> simulated;
   if (!options.simulated.empty()) {
     FlightOptions other = options.flight;

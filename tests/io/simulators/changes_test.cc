@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ident/io/simulators/patch.h"
 #include "io/simulators/simulator_vehicles.h"
 

@@ -47,7 +47,7 @@ std::string left_sentence(const Sides& sides) {
   std::string out;
   for (const auto& [side, of] : {std::pair(&sides.real, "real"), {&sides.simulated, "simulated"}})
     if (has_rest(*side))
-      out += fmt::format(" Something acts in the {} log of which no cause is certain.", of);
+      out += fmt::format(" Of the {} log: {}", of, verdict_of(*side).at("sentence").get<std::string>());
   if (!sides.not_shown.empty())
     out += fmt::format(" Not compared, because one of the logs cannot show it: {}.",
                        fmt::join(sides.not_shown, ", "));

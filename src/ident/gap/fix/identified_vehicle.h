@@ -5,8 +5,9 @@
 
 namespace ident {
 
-/// Constants and effects that the flights determine, by themselves or together, have the values found. What
-/// they do not determine keeps what was stated of it.
+/// Effects that were identified have the values found, and so have constants of which the flights tell
+/// something, be it with others only (kT km^2): directions that they do not determine stayed at what was
+/// stated. All else is as stated; everything, where the flights identify nothing at all.
 Vehicle identified_vehicle(const Vehicle& stated, const Diagnosis& diagnosis);
 
 }  // namespace ident
