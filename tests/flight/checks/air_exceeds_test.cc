@@ -42,9 +42,9 @@ TEST(GustsExpected, FollowTheDragThatIsStated) {
 TEST(AirExceeds, NamesBothForces) {
   const GustsExpected light = expected_of(testing::published_vehicle(), AirLevel::light);
   Result within, beyond;
-  warn_of_excess(within, {light, 2 * light.force});
+  warn_of_excess(within, AirBalance{light, 2 * light.force});
   EXPECT_FALSE(within.has_warning("air_exceeds")) << "the drag that nobody stated may be twice as large";
-  warn_of_excess(beyond, {light, 10 * light.force});
+  warn_of_excess(beyond, AirBalance{light, 10 * light.force});
   ASSERT_TRUE(beyond.has_warning("air_exceeds"));
   for (const double newtons : {10 * light.force, light.force})
     EXPECT_NE(beyond.warnings[0].message.find(format_number(newtons, 2) + " N"), std::string::npos)

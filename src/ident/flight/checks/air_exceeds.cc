@@ -53,17 +53,17 @@ nlohmann::ordered_json as_json(const AirBalance& air) {
           {"force_of_level", air.expected.force}};
 }
 
-void warn_of_excess(Result& result, const AirBalance& air) {
-  if (!air.exceeds()) return;
-  const std::string_view level = word_of(air.expected.level);
+void warn_of_excess(Result& result, const std::optional<AirBalance>& air) {
+  if (!air || !air->exceeds()) return;
+  const std::string_view level = word_of(air->expected.level);
   result.warn(
       "air_exceeds",
       fmt::format(
           "What pushes the vehicle beside the model changes by {} N (standard deviation). Gusts of {} "
           "air{} do {} N, and {} N at most. The rest is an error of the model, was taken for gusts, and "
           "may bias the constants. Run `ident gap`, or state the air of these flights (`air:`).",
-          format_number(air.force, 2), level, air.expected.stated ? "" : ", which is assumed,",
-          format_number(air.expected.force, 2), format_number(air.most(), 2)));
+          format_number(air->force, 2), level, air->expected.stated ? "" : ", which is assumed,",
+          format_number(air->expected.force, 2), format_number(air->most(), 2)));
 }
 
 }  // namespace ident

@@ -25,6 +25,6 @@ std::optional<AirBalance> air_balance(const FlightRecord& record, const FlightFi
 nlohmann::ordered_json as_json(const AirBalance& air);
 
 /// Warns (`air_exceeds`) of an error of the model that was taken for gusts.
-void warn_of_excess(Result& result, const AirBalance& air);
+void warn_of_excess(Result& result, const std::optional<AirBalance>& air);
 
 }  // namespace ident
