@@ -27,14 +27,14 @@ std::vector<WindowErrors> errors(std::size_t windows, Of of) {
 
 TEST(PairedComparison, AModelIsNotWorseThanItself) {
   const auto a = errors(40, [](std::size_t w) { return 1.0 + 0.1 * static_cast<double>(w % 7); });
-  EXPECT_FALSE(worse_beyond_chance(a, a, Metric::velocity, 1));
+  EXPECT_FALSE(worse_beyond_chance(a, a, Metric::velocity, 1, 0.01));
 }
 
 TEST(PairedComparison, ASmallErrorMoreInEveryWindowIsBeyondChance) {
   const auto a = errors(40, [](std::size_t w) { return 1.0 + 0.1 * static_cast<double>(w % 7); });
   const auto b = errors(40, [](std::size_t w) { return 1.02 + 0.1 * static_cast<double>(w % 7); });
-  EXPECT_TRUE(worse_beyond_chance(b, a, Metric::velocity, 1));
-  EXPECT_FALSE(worse_beyond_chance(a, b, Metric::velocity, 1));
+  EXPECT_TRUE(worse_beyond_chance(b, a, Metric::velocity, 1, 0.01));
+  EXPECT_FALSE(worse_beyond_chance(a, b, Metric::velocity, 1, 0.01));
 }
 
 // A test at 1 % of independent normal differences: more than 12 of 300 is beyond one chance in a thousand.
@@ -44,17 +44,17 @@ TEST(PairedComparison, EquallyGoodModelsAreSeldomCalledWorse) {
   for (int trial = 0; trial < 300; ++trial) {
     const auto a = errors(60, [&](std::size_t) { return std::abs(1 + 0.2 * random.normal()); });
     const auto b = errors(60, [&](std::size_t) { return std::abs(1 + 0.2 * random.normal()); });
-    called += worse_beyond_chance(a, b, Metric::velocity, 1);
+    called += worse_beyond_chance(a, b, Metric::velocity, 1, 0.01);
   }
   EXPECT_LE(called, 12);
 }
 
-TEST(PairedComparison, OfFewBlocksATwentiethMoreIsWorse) {
+TEST(PairedComparison, OfFewBlocksAQuarterMoreIsWorse) {
   const auto a = errors(8, [](std::size_t) { return 1.0; });
-  const auto slightly = errors(8, [](std::size_t) { return 1.04; });
-  const auto plainly = errors(8, [](std::size_t) { return 1.06; });
-  EXPECT_FALSE(worse_beyond_chance(slightly, a, Metric::velocity, 1));
-  EXPECT_TRUE(worse_beyond_chance(plainly, a, Metric::velocity, 1));
+  const auto slightly = errors(8, [](std::size_t) { return 1.2; });
+  const auto plainly = errors(8, [](std::size_t) { return 1.3; });
+  EXPECT_FALSE(worse_beyond_chance(slightly, a, Metric::velocity, 1, 0.01));
+  EXPECT_TRUE(worse_beyond_chance(plainly, a, Metric::velocity, 1, 0.01));
 }
 
 TEST(ErrorBySpeed, VarianceThatGrowsWithSpeedIsFound) {

@@ -14,8 +14,9 @@ namespace {
 
 // Constants that no refinement may take out of their limits.
 constexpr std::array kOfABody{param::m, param::kT, param::Jxx, param::Jyy, param::Jzz};
-constexpr double kAbsent = 0.01;       // of an effect's usual size: it is not there
-constexpr double kExplains = 0.7;      // of the error without a model: half of its square is explained
+constexpr double kAbsent = 0.01;   // of an effect's usual size: it is not there
+constexpr double kExplains = 0.7;  // of the error without a model: half of its square is explained
+constexpr double kRefusedByChance = 0.05;
 constexpr double kLeastHeldOut = 1.5;  // s: a window of the longest horizon, and a second one
 
 FlightRecord training_of(const FlightRecord& record, double share) {
@@ -134,8 +135,7 @@ class Climb {
     rung.error = table_of(errors);
     if (!rung.beyond.empty()) rung.refusal = Refusal::beyond;
     if (rung.rung == Rung::inertia && !explains_rates(rung)) rung.refusal = Refusal::unexplained;
-    for (const Standing& lower : standing_)
-      if (rung.refusal == Refusal::none) refuse_where_worse(rung, errors, lower);
+    refuse_where_worse(rung, errors);
     const bool good = rung.refusal == Refusal::none;
     if (good) {
       result_.chosen = result_.rungs.size();
@@ -151,19 +151,36 @@ class Climb {
     return rung.error[rate][0] < kExplains * result_.persistence[rate][0];
   }
 
-  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors,
-                          const Standing& lower) const {
-    const RungResult& other = result_.rungs[lower.rung];
-    for (std::size_t m = 0; m < kMetrics; ++m)
-      for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
-        const Metric metric = static_cast<Metric>(m);
-        const bool judges =
-            metric == Metric::velocity || other.error[m][h] < kExplains * result_.persistence[m][h];
-        if (!judges || !worse_beyond_chance(errors, lower.errors, metric, h)) continue;
-        rung.refusal = Refusal::worse;
-        rung.than = other.rung, rung.metric = metric, rung.horizon = h;
-        return;
-      }
+  struct Look {
+    const Standing* lower;
+    Metric metric;
+    std::size_t horizon;
+  };
+
+  // Errors by which a rung is compared with those below it.
+  std::vector<Look> looks() const {
+    std::vector<Look> out;
+    for (const Standing& lower : standing_)
+      for (std::size_t m = 0; m < kMetrics; ++m)
+        for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
+          const Metric metric = static_cast<Metric>(m);
+          const double error = result_.rungs[lower.rung].error[m][h];
+          if (metric == Metric::velocity || error < kExplains * result_.persistence[m][h])
+            out.push_back({&lower, metric, h});
+        }
+    return out;
+  }
+
+  // A right model is refused at a twentieth at most, over all looks.
+  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors) const {
+    const std::vector<Look> all = looks();
+    const double level = kRefusedByChance / static_cast<double>(std::max<std::size_t>(all.size(), 1));
+    for (const auto& [lower, metric, horizon] : all) {
+      if (rung.refusal != Refusal::none) return;
+      if (!worse_beyond_chance(errors, lower->errors, metric, horizon, level)) continue;
+      rung.refusal = Refusal::worse;
+      rung.than = result_.rungs[lower->rung].rung, rung.metric = metric, rung.horizon = horizon;
+    }
   }
 
   const FlightRecord& record_;

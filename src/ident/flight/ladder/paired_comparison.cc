@@ -9,15 +9,14 @@
 namespace ident {
 namespace {
 
-constexpr double kBlock = 2.0;      // s: twice the longest horizon
-constexpr double kLevel = 0.01;     // of the test
+constexpr double kBlock = 1.0;      // s: the longest horizon
 constexpr std::size_t kFewest = 5;  // blocks for a test
-constexpr double kPlainly = 1.05;   // ratio of errors that needs no test
+constexpr double kPlainly = 1.25;   // ratio of errors that needs no test
 
 }  // namespace
 
 bool worse_beyond_chance(const std::vector<WindowErrors>& a, const std::vector<WindowErrors>& b,
-                         Metric metric, std::size_t horizon) {
+                         Metric metric, std::size_t horizon, double level) {
   const double of_a = error_of(a, metric, horizon), of_b = error_of(b, metric, horizon);
   if (!(of_a > of_b)) return false;
   std::map<std::pair<std::size_t, long>, double> blocks;
@@ -31,7 +30,7 @@ bool worse_beyond_chance(const std::vector<WindowErrors>& a, const std::vector<W
   std::vector<double> sums;
   for (const auto& [block, sum] : blocks) sums.push_back(sum);
   const double n = static_cast<double>(sums.size());
-  return mean(sums) > t_quantile(1 - kLevel, n - 1) * standard_deviation(sums) / std::sqrt(n);
+  return mean(sums) > t_quantile(1 - level, n - 1) * standard_deviation(sums) / std::sqrt(n);
 }
 
 }  // namespace ident

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kForceHorizon = 0.5, kForceSpacing = 0.1;     // s: users judge by half a second
 constexpr double kMomentHorizon = 0.1, kMomentSpacing = 0.05;  // s: rates are turned back sooner
-constexpr double kBlockFit = 2.0;                                 // s over which residuals are taken for related
+constexpr double kBlockFit = 2.0;                              // s over which residuals are taken for related
 constexpr int kSloped = 2;  // of them with slopes of their own: forces are nearly linear in all constants
 constexpr int kSteps = 6;   // most Gauss-Newton steps; the model is nearly linear
 constexpr double kStill = 1e-3;  // of a unit: no step worth another
