@@ -2,6 +2,7 @@
 #include "ident/gap/fix/identified_vehicle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace ident {
@@ -12,9 +13,18 @@ constexpr double kHeard = 0.05;
 
 bool is_identified(const Parameter& p) { return p.identifiable || p.joint; }
 
-bool is_told(const Parameter& p) {
-  const bool of_an_effect = p.name.find('.') != std::string::npos;
-  return is_identified(p) || (!of_an_effect && p.prior_value && p.from_flight.value_or(0.0) > kHeard);
+bool is_named(const std::string& effect, const Result& result) {
+  if (!result.extra.contains("verdict")) return false;
+  return std::ranges::any_of(result.extra["verdict"]["effects"],
+                             [&](const auto& name) { return name == effect; });
+}
+
+// A drag known with the rotor speed only is not identified by itself, and is there.
+bool is_told(const Parameter& p, const Result& result) {
+  if (is_identified(p)) return true;
+  const std::size_t dot = p.name.find('.');
+  if (dot != std::string::npos) return std::isfinite(p.value) && is_named(p.name.substr(0, dot), result);
+  return p.prior_value && p.from_flight.value_or(0.0) > kHeard;
 }
 
 }  // namespace
@@ -25,7 +35,7 @@ Vehicle identified_vehicle(const Vehicle& stated, const Diagnosis& diagnosis) {
   std::set<std::string> taken;
   for (const auto& [name, known] : diagnosis.adopted.parameters) {
     const Parameter* found = diagnosis.result.find(name);
-    if (!found || !is_told(*found)) continue;
+    if (!found || !is_told(*found, diagnosis.result)) continue;
     out.parameters[name] = known;
     taken.insert(name);
   }

@@ -5,8 +5,8 @@
 
 namespace ident {
 
-/// Effects that were identified have the values found, and so have constants of which the flights tell
-/// something, be it with others only (kT km^2): directions that they do not determine stayed at what was
+/// Effects that were identified or named have the values found, and so have constants of which the flights
+/// tell something, be it with others only (kT km^2): directions that they do not determine stayed at what was
 /// stated. All else is as stated; everything, where the flights identify nothing at all.
 Vehicle identified_vehicle(const Vehicle& stated, const Diagnosis& diagnosis);
 
