@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
-#include "ident/result/json_number.h"
 #include "ident/effects/all_parameters.h"
+#include "ident/result/json_number.h"
 
 namespace ident {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "ident/bench/columns/speed_column.h"
 #include "ident/bench/thrust/thrust_sweep_fit.h"
 #include "ident/bench/thrust/thrust_sweep_pool.h"
 #include "ident/bench/thrust/thrust_sweep_rotor.h"
-#include "ident/bench/columns/speed_column.h"
 #include "ident/core/error.h"
 #include "support/thrust_tables.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "ident/core/error.h"
-#include "ident/io/packed/crc32.h"
 #include "ident/io/crazyflie/format.h"
+#include "ident/io/packed/crc32.h"
 #include "ident/io/packed/damage.h"
 #include "ident/io/packed/little_endian.h"
 #include "ident/io/packed/records.h"

@@ -7,8 +7,8 @@ namespace {
 
 using enum Dimension;
 
-constexpr double kFastestRotor = 6500.0;  // rad/s, 62,000 rpm
-constexpr double kFullCommandSchemas = 1.5;      // a command of 50 % more than all there is was given in percent
+constexpr double kFastestRotor = 6500.0;     // rad/s, 62,000 rpm
+constexpr double kFullCommandSchemas = 1.5;  // a command of 50 % more than all there is was given in percent
 constexpr double kLongestPulseSchemas = 3000.0;  // us
 
 const Signal kTime = {"t", time, {{"time", ""}, {"timestamp", ""}, {"time s", ""}, {"t s", ""}}};
@@ -19,8 +19,10 @@ const Signal kElectricalSpeed = {
 const Signal kOpticalSpeed = {"omega_optical", angular_rate, {{"motor optical speed", "rpm"}}, kFastestRotor};
 const Signal kCommand = {
     "delta", fraction, {{"throttle", ""}, {"duty", "%"}, {"duty cycle", "%"}}, kFullCommandSchemas};
-const Signal kPulse = {
-    "u", pulse_width, {{"esc signal", ""}, {"esc", ""}, {"pulse width", ""}, {"pwm", ""}}, kLongestPulseSchemas};
+const Signal kPulse = {"u",
+                       pulse_width,
+                       {{"esc signal", ""}, {"esc", ""}, {"pulse width", ""}, {"pwm", ""}},
+                       kLongestPulseSchemas};
 const Signal kVoltage = {
     "voltage", voltage, {{"batt. volts", ""}, {"battery voltage", ""}, {"motor volts", ""}}, 150.0};
 

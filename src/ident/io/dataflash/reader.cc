@@ -19,8 +19,8 @@ namespace {
 using dataflash::Layout;
 
 constexpr char kHead1 = '\xA3', kHead2 = '\x95';
-constexpr std::size_t kHeaderReader = 3;   // bytes: A3 95, kind of message
-constexpr int kFormatKind = 128;     // FMT, which describes itself as the others
+constexpr std::size_t kHeaderReader = 3;  // bytes: A3 95, kind of message
+constexpr int kFormatKind = 128;          // FMT, which describes itself as the others
 constexpr std::size_t kFormat = 86;  // bytes of an FMT behind its header: u8 u8 char[4] char[16] char[64]
 
 constexpr std::array<std::string_view, 5> kTellOfTheLog = {"PARM", "MSG", "UNIT", "MULT", "FMTU"};

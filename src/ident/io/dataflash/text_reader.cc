@@ -32,7 +32,8 @@ std::string_view trimmed(std::string_view text) {
 std::vector<std::string_view> cells_of(std::string_view line, std::size_t most) {
   std::vector<std::string_view> cells;
   for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t comma = cells.size() + 1 == most ? line.size() : std::min(line.find(',', at), line.size());
+    const std::size_t comma =
+        cells.size() + 1 == most ? line.size() : std::min(line.find(',', at), line.size());
     cells.push_back(trimmed(line.substr(at, comma - at)));
     at = comma + 1;
   }
@@ -114,7 +115,8 @@ class Reader {
     if (cells.size() < name + 2) return;
     const std::optional<double> value = number(cells[name + 1]), time = number(cells[1]);
     if (!value) return;
-    facts_.take_parameter(cells[name], *value, name == 2 && time ? std::optional(*time * 1e-6) : std::nullopt);
+    facts_.take_parameter(cells[name], *value,
+                          name == 2 && time ? std::optional(*time * 1e-6) : std::nullopt);
   }
 
   void make_stream(Kind& kind) {

@@ -75,8 +75,8 @@ class Finder {
     if (column.find("{output") != std::string::npos) {
       const std::optional<int> output = output_of(mapped.number);
       if (!output) return {};
-      column =
-          with_replaced(with(column, "{output}", std::to_string(*output)), "{output-1}", std::to_string(*output - 1));
+      column = with_replaced(with(column, "{output}", std::to_string(*output)), "{output-1}",
+                             std::to_string(*output - 1));
     }
     if (!mapped.stream.empty()) {
       const LogStream* stream = find_stream(log_, mapped.stream);

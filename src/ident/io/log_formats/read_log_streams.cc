@@ -49,8 +49,9 @@ LogStreams read_log_streams(const std::string& path) { return read_log_streams(w
 LogStreams read_log_streams(std::string_view bytes, const std::string& file) {
   if (const Format* format = find_format(bytes)) return format->read(bytes, file);
   refuse_no_log(bytes.substr(0, kRecognisedFrom), file);
-  throw InputError(file, 0, "",
-                   fmt::format("is in no format of a log that is read: {}", fmt::join(log_format_names(), ", ")));
+  throw InputError(
+      file, 0, "",
+      fmt::format("is in no format of a log that is read: {}", fmt::join(log_format_names(), ", ")));
 }
 
 std::vector<std::string> log_format_names() {

@@ -10,8 +10,8 @@
 
 namespace ident {
 
-/// Name of the format of a file that begins with these bytes (up to `kRecognisedFrom` of them); empty where it
-/// is none that is read.
+/// Name of the format of a file that begins with these bytes (up to `kRecognisedFrom` of them); empty where
+/// it is none that is read.
 std::string_view log_format(std::string_view first);
 constexpr std::size_t kRecognisedFrom = 1 << 14;  // bytes; a text log may begin with the list of messages
 

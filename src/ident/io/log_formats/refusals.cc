@@ -41,7 +41,8 @@ void refuse_no_log(std::string_view first, const std::string& file) {
     refuse("is a git-LFS pointer, not the data: fetch them with 'git lfs pull'");
   if (is_telemetry_log(first))
     refuse(
-        "is a telemetry log (MAVLink), whose 2 to 4 Hz are too slow: take the log on the vehicle's card, .ulg of "
+        "is a telemetry log (MAVLink), whose 2 to 4 Hz are too slow: take the log on the vehicle's card, "
+        ".ulg of "
         "PX4 or .bin of ArduPilot, which the ground station fetches under 'log download'");
 }
 

@@ -6,7 +6,8 @@
 
 namespace ident {
 
-/// Throws InputError where the first bytes are those of a compressed file, a Git LFS pointer or a telemetry log.
+/// Throws InputError where the first bytes are those of a compressed file, a Git LFS pointer or a telemetry
+/// log.
 void refuse_no_log(std::string_view first, const std::string& file);
 
 }  // namespace ident

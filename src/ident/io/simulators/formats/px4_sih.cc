@@ -8,8 +8,8 @@
 namespace ident {
 namespace {
 
-constexpr double kGravity = 9.80665;  // CONSTANTS_ONE_G of PX4
-constexpr double kDragSpeedSih = 5.0;    // m/s at which the drag of the airframe is replaced by a linear one
+constexpr double kGravity = 9.80665;   // CONSTANTS_ONE_G of PX4
+constexpr double kDragSpeedSih = 5.0;  // m/s at which the drag of the airframe is replaced by a linear one
 
 bool recognises(std::string_view text) {
   return sets_parameter(text, "SIH_MASS") || sets_parameter(text, "SIH_T_MAX") ||
