@@ -20,7 +20,7 @@ struct Options {
 
 void write_fix(Diagnosis& diagnosis, const Options& options, const Vehicle& stated, Context& context) {
   const FixedFile fixed = fixed_file(options.flight.vehicle, stated, identified_vehicle(stated, diagnosis));
-  enter_fix(diagnosis.result, fixed, options.flight.vehicle, options.fix);
+  enter_fix(diagnosis, fixed, options.flight.vehicle, options.fix);
   context.notices.insert(context.notices.end(), fixed.notes.begin(), fixed.notes.end());
   context.outputs.add(options.fix, fixed.text);
 }

@@ -1,6 +1,7 @@
 // What is physics about a cause: stated here once, so that a diagnosis knows no cause by its name.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 
@@ -22,9 +23,6 @@ struct CauseTraits {
   bool between_rows = false;  ///< what a controller does between two logged commands passes for it
   /// Causes that come with it: naming both says one thing twice.
   std::span<const std::string_view> implies = {};
-  /// Causes whose signatures are next to its own in any but rich flight: where one was excluded, it may
-  /// be that one.
-  std::span<const std::string_view> look_alikes = {};
   /// What it is where it is small: a payload too light to be weighed is a shifted centre of gravity.
   std::string_view alias_of = {};
 };
@@ -34,6 +32,13 @@ const CauseTraits& traits_of(std::string_view cause);
 
 /// Whether `cause` brings `other` along.
 bool implies(std::string_view cause, std::string_view other);
+
+/// Whether the signatures of two causes are next to each other in any but rich flight. Where one of them was
+/// excluded, the other one may stand in for it.
+bool look_alike(std::string_view cause, std::string_view other);
+
+/// Pairs of look-alikes, each once.
+std::span<const std::array<std::string_view, 2>> all_look_alikes();
 
 /// Causes with traits, in no order: a test holds that each is an effect or a constant of the model.
 std::span<const CauseTraits> all_cause_traits();

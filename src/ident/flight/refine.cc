@@ -193,12 +193,13 @@ struct Refined {
   const Theta& theta;
   const FlightFit &fit, &body;
   AirShare air;
+  std::optional<AirBalance> pushed;
 };
 
 // Findings about the fit, and what does not count as known because of them.
 void judge(Result& result, const Refined& refined, const SteadyPush& push, const Vibration& vibration,
            std::vector<Warning>& tested) {
-  const auto& [vehicle, logs, record, theta, fit, body, air] = refined;
+  const auto& [vehicle, logs, record, theta, fit, body, air, pushed] = refined;
   for (const Warning& w : logs_agree(record, logs, theta, fit))
     result.warnings.push_back(w), tested.push_back(w);
   warn_of_steady_push(result, push, logs, vehicle.g);
@@ -213,7 +214,7 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, const
   if (!seldom_input(record, logs))
     doubt_commands_between_rows(result, record, logs, commands_held(record, logs, theta, fit));
   warn_of_air(result, air);
-  warn_of_excess(result, air_balance(record, fit));
+  warn_of_excess(result, pushed);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   doubt_passed_on(result, vibration);
   warn_about(result, theta, fit);
@@ -225,10 +226,10 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, const
 // Numbers of the fit, tables and pictures.
 void show(Result& result, const Refined& refined, const SteadyPush& push, const Vibration& vibration,
           Shown shown) {
-  const auto& [vehicle, logs, record, theta, fit, body, air] = refined;
+  const auto& [vehicle, logs, record, theta, fit, body, air, pushed] = refined;
   result.fit = as_json(record, fit);
   result.fit["air_over_rotors"] = air.over_rotors;
-  if (const auto pushed = air_balance(record, fit)) result.fit["air"] = as_json(*pushed);
+  if (pushed) result.fit["air"] = as_json(*pushed);
   std::vector<ThrustAt> thrust;
   if (!push.matters(vehicle.g)) thrust = thrust_over_commands(record, logs, theta, body);
   if (!thrust.empty()) result.fit["thrust_by_command"] = as_json(thrust);
@@ -286,7 +287,8 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
   result.prior_correlation =
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
   result.correlation = flight_correlation(theta, fit.covariance);
-  const Refined refined{vehicle, logs, record, theta, fit, body, air_share(record, fit)};
+  const Refined refined{
+      vehicle, logs, record, theta, fit, body, air_share(record, fit), air_balance(record, fit)};
   const SteadyPush push = steady_push(record, fit);
   judge(result, refined, push, vibration, tested);
   show(result, refined, push, vibration, options.shown);

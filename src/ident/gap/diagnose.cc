@@ -174,7 +174,8 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
                                 const GapOptions& options, FlightEntry entry, Result begun, Look look,
                                 Commands commands) {
   auto [p, record, tested, vibration] = std::move(entry);
-  Looked out{{std::move(begun), {}}, {}};
+  Looked out;
+  out.result = std::move(begun);
   Result& result = out.result;
   const bool hover = is_hover(tested);
   const SearchOptions search_options{options.exclude, hover ? 0 : options.most_causes, hover,
@@ -244,6 +245,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   result.sections.push_back(data_health(record, logs, search.best.fit.noise, vibration));
   const bool none = verdict.status == "none";  // and nothing of a cause is written
   out.adopted = hover ? vehicle : adopted_vehicle(vehicle, none ? search.base : search.best);
+  out.verdict = std::move(verdict), out.gap = seen.held_out.gap;
   return out;
 }
 
@@ -270,9 +272,10 @@ Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, c
   require_known(options.exclude);
   auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);
   if (only_trim(record.signals)) {
-    out.adopted = diagnose_trim(result, record, p, options.exclude);
+    diagnose_trim(out, record, p, options.exclude);
     if (const std::string wrong = disqualified(tested); !wrong.empty()) {
-      result.extra["verdict"] = to_json(Judged{.status = "unknown", .sentence = wrong});
+      out.verdict = {.status = "unknown", .sentence = wrong};
+      result.extra["verdict"] = to_json(out.verdict);
       result.verdict = wrong;
       distrust(result, wrong);
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ident/data/flight_log.h"
+#include "ident/gap/verdict/verdict.h"
 #include "ident/model/vehicle.h"
 #include "ident/result/result.h"
 #include "ident/result/shown.h"
@@ -25,6 +26,8 @@ struct GapOptions {
 struct Diagnosis {
   Result result;    ///< schema ident.gap/1
   Vehicle adopted;  ///< the vehicle with refitted constants and the causes found
+  Judged verdict;
+  GapClosed gap;  ///< half a second ahead; NaN where nothing was predicted
 };
 
 /// Throws DataError when the logs do not allow a diagnosis at all.

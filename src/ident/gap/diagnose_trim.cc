@@ -210,8 +210,9 @@ ResidualWrench wrench_of(const FlightRecord& record, const Trim& trim, const Tri
 
 }  // namespace
 
-Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vector<double>& p,
-                      const std::vector<std::string>& exclude) {
+void diagnose_trim(Diagnosis& out, const FlightRecord& record, const std::vector<double>& p,
+                   const std::vector<std::string>& exclude) {
+  Result& result = out.result;
   const Vehicle& vehicle = *record.vehicle;
   const std::vector<FreeConstant> constants = trim_constants(record, p);
   const Trim trim = make_trim(record, p);
@@ -240,7 +241,7 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
   }
   const ResidualWrench before = wrench_of(record, trim, base.trim), after = wrench_of(record, trim, left);
   const Json candidates = causes_tried(search, [](const Candidate&) { return GapClosed{}; });
-  const Judged verdict = judged(search, by_chance(trim, left), limit_of(candidates));
+  const Judged& verdict = out.verdict = judged(search, by_chance(trim, left), limit_of(candidates));
   result.warnings.push_back(without_turning());
   if (!states_rotor_ratios(vehicle))
     result.warn(
@@ -271,7 +272,7 @@ Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vec
   result.sections = {trim_section(record, trim, left.y)};
   result.sections.back().text += " " + scatter_in_words(trim, left.scatter);
   std::ranges::move(gap_sections(result.extra, before, after), std::back_inserter(result.sections));
-  return adopted_vehicle(vehicle, search.best);
+  out.adopted = adopted_vehicle(vehicle, search.best);
 }
 
 }  // namespace ident

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "ident/flight/record/flight_record.h"
-#include "ident/result/result.h"
+#include "ident/gap/diagnose.h"
 
 namespace ident {
 
-/// Fills `result` as a diagnosis does; nothing is predicted over half a second, so `gap` holds nulls. Gives
-/// the vehicle with the cause found. `p`: constants as stated.
-Vehicle diagnose_trim(Result& result, const FlightRecord& record, const std::vector<double>& p,
-                      const std::vector<std::string>& exclude);
+/// Fills `out` as a diagnosis does; nothing is predicted over half a second, so its `gap` stays empty. `p`:
+/// constants as stated.
+void diagnose_trim(Diagnosis& out, const FlightRecord& record, const std::vector<double>& p,
+                   const std::vector<std::string>& exclude);
 
 }  // namespace ident

@@ -49,12 +49,23 @@ TEST(PairedComparison, EquallyGoodModelsAreSeldomCalledWorse) {
   EXPECT_LE(called, 12);
 }
 
-TEST(PairedComparison, OfFewBlocksAQuarterMoreIsWorse) {
-  const auto a = errors(8, [](std::size_t) { return 1.0; });
-  const auto slightly = errors(8, [](std::size_t) { return 1.2; });
-  const auto plainly = errors(8, [](std::size_t) { return 1.3; });
-  EXPECT_FALSE(worse_beyond_chance(slightly, a, Metric::velocity, 1, 0.01));
-  EXPECT_TRUE(worse_beyond_chance(plainly, a, Metric::velocity, 1, 0.01));
+// Errors of a race: of 15 blocks the fastest err a hundred times as much as the slowest. One and a half times
+// each of them is worse, and no t test of the differences finds it at one in a thousand.
+TEST(PairedComparison, WhereErrorsDifferMuchTheirRatiosTell) {
+  const auto of = [](double factor) {
+    return [factor](std::size_t w) { return factor * std::pow(100.0, static_cast<double>(w % 10) / 9); };
+  };
+  const auto a = errors(30, of(1.0)), b = errors(30, of(1.5));
+  EXPECT_TRUE(worse_beyond_chance(b, a, Metric::velocity, 1, 0.001));
+  EXPECT_FALSE(worse_beyond_chance(a, b, Metric::velocity, 1, 0.001));
+}
+
+TEST(PairedComparison, OfFewBlocksOnlyPlainHarmIsBeyondChance) {
+  const auto a = errors(4, [](std::size_t w) { return 1.0 + 0.1 * static_cast<double>(w % 3); });
+  const auto slightly = errors(4, [](std::size_t w) { return 1.3 - 0.1 * static_cast<double>(w % 3); });
+  const auto plainly = errors(4, [](std::size_t w) { return 10.0 + 1.1 * static_cast<double>(w % 3); });
+  EXPECT_FALSE(worse_beyond_chance(slightly, a, Metric::velocity, 1, 0.05));
+  EXPECT_TRUE(worse_beyond_chance(plainly, a, Metric::velocity, 1, 0.05));
 }
 
 TEST(ErrorBySpeed, VarianceThatGrowsWithSpeedIsFound) {

@@ -31,13 +31,13 @@ Vehicle as_stated(const Vehicle& truth) {
   return v;
 }
 
-/// The record of a log that holds rotor speeds, but no commands.
+/// The record of a log that holds rotor speeds but no commands, or commands where it has no speeds.
 struct Flown {
   Vehicle vehicle;
   FlightRecord record;
 
   Flown(Vehicle stated, FlightLog log) : vehicle(std::move(stated)) {
-    log.delta.clear();
+    if (log.has_rotor_speeds()) log.delta.clear();
     std::vector<Warning> warnings;
     const std::vector<FlightLog> logs{std::move(log)};
     record = make_flight_record(vehicle, starting_constants(vehicle, logs, warnings), logs);
@@ -119,6 +119,29 @@ TEST(Ladder, AMassThatNoScaleWouldShowIsRefused) {
   const auto ladder = climb_ladder(flown.record, FullModel{p, p});
   ASSERT_TRUE(ladder);
   EXPECT_EQ(ladder->rungs.back().refusal, Refusal::beyond);
+}
+
+// Jxx of the rung where omega_m was stated with that factor and that share as its deviation.
+RungConstant found_Jxx(double factor, double std_of_lag) {
+  const Vehicle truth = quad(0.0);
+  Vehicle stated = testing::known(truth);
+  Known& omega_m = stated.parameters["omega_m"];
+  omega_m.value *= factor, omega_m.std = std_of_lag * omega_m.value;
+  FlightLog log = flight(truth, 100, 3);
+  log.Omega.clear();
+  const Flown flown(std::move(stated), std::move(log));
+  const auto ladder = climb_ladder(flown.record, {});
+  const RungResult& inertia = rung_of(ladder.value(), Rung::inertia);
+  return *std::ranges::find(inertia.constants, "Jxx", &RungConstant::name);
+}
+
+TEST(Ladder, InertiaBearsWhatIsNotKnownOfTheMotors) {
+  const double share = 0.1;
+  const RungConstant right = found_Jxx(1.0, 1e-6), off = found_Jxx(1 + share, 1e-6),
+                     open = found_Jxx(1.0, share);
+  const double moved = std::abs(off.value - right.value);  // by one deviation of the lag
+  ASSERT_GT(moved, 0.7 * right.std);  // or this test could not fail
+  EXPECT_NEAR(open.std, std::hypot(right.std, moved), 0.1 * open.std);
 }
 
 // Speeds of another flight: whatever moves the vehicle, it is not these.

@@ -49,9 +49,10 @@ TEST(FixedFile, OfASimulatorHoldsTheValuesAndTellsThem) {
   const FixedFile fixed = fixed_file(path, stated, identified);
   const Vehicle again = vehicle_of_simulator(find_simulator("gz"), fixed.text, path);
   EXPECT_NEAR(again.value("rotor_drag.kd"), 6e-5, 1e-15);
-  Result result;
-  result.extra["gap"] = {{"before", 9.0}, {"after", 1.1}, {"noise_floor", 1.0}};
-  enter_fix(result, fixed, path, "better.sdf");
+  Diagnosis diagnosis;
+  diagnosis.gap.before = 9.0, diagnosis.gap.after = 1.1, diagnosis.gap.floor = 1.0;
+  enter_fix(diagnosis, fixed, path, "better.sdf");
+  const Result& result = diagnosis.result;
   EXPECT_EQ(result.extra["fix"][0]["name"], "rotorDragCoefficient");
   EXPECT_TRUE(result.has_warning("left_out"));
   EXPECT_NE(result.verdict.find("misses 9 times"), std::string::npos) << result.verdict;

@@ -29,8 +29,8 @@ Vehicle stated() {
 
 TEST(OpenCommands, AreNoGapOfTheVehicle) {
   const std::vector<FlightLog> logs{flown(testing::quad(0.0), 1)};
-  const auto [result, adopted] = diagnose_gap(stated(), logs);
-  EXPECT_EQ(result.extra["verdict"]["status"], "none") << result.verdict;
+  const auto [result, adopted, verdict, gap] = diagnose_gap(stated(), logs);
+  EXPECT_EQ(verdict.status, "none") << result.verdict;
   EXPECT_FALSE(adopted.has("dead_time"));
   EXPECT_EQ(adopted.value("omega_m"), stated().value("omega_m"));
   EXPECT_TRUE(result.has_warning("commands_between_rows"));

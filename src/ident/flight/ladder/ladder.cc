@@ -14,10 +14,10 @@ namespace {
 
 // Constants that no refinement may take out of their limits.
 constexpr std::array kOfABody{param::m, param::kT, param::Jxx, param::Jyy, param::Jzz};
-constexpr double kAbsent = 0.01;   // of an effect's usual size: it is not there
-constexpr double kExplains = 0.7;  // of the error without a model: half of its square is explained
-constexpr double kRefusedByChance = 0.05;
-constexpr double kLeastHeldOut = 1.5;  // s: a window of the longest horizon, and a second one
+constexpr double kAbsent = 0.01;           // of an effect's usual size: it is not there
+constexpr double kExplains = 0.7;          // of the error without a model: half of its square is explained
+constexpr double kRefusedByChance = 0.05;  // probability, of a model that is as good as those below
+constexpr double kLeastHeldOut = 1.5;      // s: a window of the longest horizon, and a second one
 
 FlightRecord training_of(const FlightRecord& record, double share) {
   FlightRecord out = without_arcs(record);
@@ -67,8 +67,9 @@ class Climb {
     with.insert(with.end(), model.constants.begin(), model.constants.end());
     const Standing& below = standing_.back();
     const Theta by_training = theta_of(below.trained, with), by_all = theta_of(below.whole, with);
-    const WindowFit trained = fit_windows(training_motion_, by_training, model.what),
-                    whole = fit_windows(whole_motion_, by_all, model.what);
+    const std::vector<HeldConstant> held = held_beside(with, result_.rungs[below.rung]);
+    const WindowFit trained = fit_windows(training_motion_, by_training, model.what, held),
+                    whole = fit_windows(whole_motion_, by_all, model.what, held);
     RungResult rung{.rung = model.rung, .p = whole.p};
     take_over(rung, result_.rungs[below.rung], with);
     describe(rung, by_all, whole, by_training, trained);
@@ -97,6 +98,19 @@ class Climb {
     // Limits are those about what was stated, wherever the search starts.
     for (FreeConstant& c : constants) c.start = record_.p[static_cast<std::size_t>(c.index)];
     return {p, std::move(constants), record_.logs, false};
+  }
+
+  // Constants that were stated with a deviation and are not fitted, as well as they are known on the rung
+  // below.
+  std::vector<HeldConstant> held_beside(const std::vector<std::string>& names,
+                                        const RungResult& below) const {
+    std::vector<HeldConstant> out;
+    for (const FreeConstant& c : free_constants(*record_.vehicle, record_.p)) {
+      if (!c.prior_std || std::ranges::find(names, c.name) != names.end()) continue;
+      const auto known = std::ranges::find(below.constants, c.name, &RungConstant::name);
+      out.push_back({c.index, known == below.constants.end() ? *c.prior_std : known->std});
+    }
+    return out;
   }
 
   // What was estimated on the other side stays.
@@ -151,15 +165,15 @@ class Climb {
     return rung.error[rate][0] < kExplains * result_.persistence[rate][0];
   }
 
-  struct Look {
+  struct Comparison {
     const Standing* lower;
     Metric metric;
     std::size_t horizon;
   };
 
-  // Errors by which a rung is compared with those below it.
-  std::vector<Look> looks() const {
-    std::vector<Look> out;
+  // All errors in which the next rung is compared with one below it.
+  std::vector<Comparison> comparisons() const {
+    std::vector<Comparison> out;
     for (const Standing& lower : standing_)
       for (std::size_t m = 0; m < kMetrics; ++m)
         for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
@@ -171,10 +185,10 @@ class Climb {
     return out;
   }
 
-  // A right model is refused at a twentieth at most, over all looks.
+  // All comparisons together refuse a right model with probability kRefusedByChance at most (Bonferroni).
   void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors) const {
-    const std::vector<Look> all = looks();
-    const double level = kRefusedByChance / static_cast<double>(std::max<std::size_t>(all.size(), 1));
+    const std::vector<Comparison> all = comparisons();
+    const double level = kRefusedByChance / static_cast<double>(all.size());
     for (const auto& [lower, metric, horizon] : all) {
       if (rung.refusal != Refusal::none) return;
       if (!worse_beyond_chance(errors, lower->errors, metric, horizon, level)) continue;

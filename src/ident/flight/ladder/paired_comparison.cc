@@ -9,12 +9,11 @@
 namespace ident {
 namespace {
 
-constexpr double kBlock = 1.0;      // s: the longest horizon
-constexpr std::size_t kFewest = 5;  // blocks for a test
-constexpr double kPlainly = 1.25;   // ratio of errors that needs no test
+constexpr double kBlock = 1.0;  // s: the longest horizon
 
 // Whether the mean of these is above zero beyond chance, by a t test on one side.
 bool is_above_zero(const std::vector<double>& x, double level) {
+  if (x.size() < 2) return false;
   const double n = static_cast<double>(x.size());
   return mean(x) > t_quantile(1 - level, n - 1) * standard_deviation(x) / std::sqrt(n);
 }
@@ -33,14 +32,12 @@ bool worse_beyond_chance(const std::vector<WindowErrors>& a, const std::vector<W
     auto& [sum_a, sum_b] = blocks[{a[w].arc, std::lround(std::floor(a[w].t / kBlock))}];
     sum_a += x * x, sum_b += y * y;
   }
-  if (blocks.size() < kFewest) return of_a > kPlainly * of_b;
   std::vector<double> differences, ratios;
   for (const auto& [block, sums] : blocks) {
     differences.push_back(sums.first - sums.second);
     if (sums.first > 0 && sums.second > 0) ratios.push_back(std::log(sums.first / sums.second));
   }
-  return is_above_zero(differences, level / 2) ||
-         (ratios.size() >= kFewest && is_above_zero(ratios, level / 2));
+  return is_above_zero(differences, level / 2) || is_above_zero(ratios, level / 2);
 }
 
 }  // namespace ident

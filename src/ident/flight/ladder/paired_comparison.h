@@ -5,11 +5,10 @@
 
 namespace ident {
 
-/// Whether errors `a` are greater than errors `b` of the same windows by more than chance: over blocks
-/// of flight, whose windows hang together, at that level: by t tests on one side of the differences of
-/// squared errors, which show harm in a few places, and of the logarithms of their ratios, which show it
-/// where errors differ much from place to place. With too few
-/// blocks for that, by more than a quarter.
+/// Whether errors `a` are greater than errors `b` of the same windows by more than chance, at that level. Two
+/// one-sided t tests share the level; each takes the sums over blocks of flight, within which windows hang
+/// together. Differences of squared errors show harm in a few places. Logarithms of their ratios show it
+/// where errors differ much from place to place.
 bool worse_beyond_chance(const std::vector<WindowErrors>& a, const std::vector<WindowErrors>& b,
                          Metric metric, std::size_t horizon, double level);
 

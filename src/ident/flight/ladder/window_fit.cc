@@ -117,36 +117,52 @@ VectorXd step_within(const MatrixXd& A, const VectorXd& b, const VectorXd& u, co
   return step;
 }
 
+// What an error of the constants that are held makes of the estimate.
+template <class Missed>
+void add_held(WindowFit& fit, const MatrixXd& gain, const std::vector<HeldConstant>& held,
+              const Missed& missed_at) {
+  const VectorXd here = missed_at(fit.p);
+  for (const HeldConstant& constant : held) {
+    std::vector<double> off = fit.p;
+    off[static_cast<std::size_t>(constant.index)] += constant.std;
+    const VectorXd moved = gain * (missed_at(off) - here);
+    if (moved.allFinite()) fit.covariance += moved * moved.transpose();
+  }
+}
+
 }  // namespace
 
-WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what) {
+WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what,
+                      const std::vector<HeldConstant>& held) {
   const bool forces = what == FitTo::forces;
   const std::vector<Window> windows =
       windows_of(motion, forces ? kForceHorizon : kMomentHorizon, forces ? kForceSpacing : kMomentSpacing);
   WindowFit fit;
   fit.windows = windows.size();
   fit.u = VectorXd::Zero(theta.size());
-  MatrixXd J;
+  MatrixXd J, gain;  // of the estimate over the residuals
   for (int round = 0; round < kSteps; ++round) {
     const VectorXd r = missed(motion, windows, what, theta.p(fit.u));
     if (round < kSloped) J = slopes(motion, windows, what, theta, fit.u, r);
     const VectorXd weight = weight_by_speed(windows, r);
     const VectorXd weighted = weight.cwiseProduct(r);
     const MatrixXd H = J.transpose() * weight.asDiagonal() * J;
-    const VectorXd g = J.transpose() * weighted;
     const VectorXd factor = colour(windows, J, weighted, H.diagonal()).cwiseSqrt().cwiseInverse();
     const Stated prior = stated(theta, fit.u);
     const MatrixXd A = factor.asDiagonal() * H * factor.asDiagonal() + prior.information;
     // The data's own step under that information, so that colour moves the weight against priors only.
     const MatrixXd data = factor.asDiagonal() * H * factor.asDiagonal();
-    const VectorXd own =
-        (H + 1e-9 * MatrixXd(H.diagonal().asDiagonal()) + 1e-12 * prior.information).ldlt().solve(-g);
-    const VectorXd step = step_within(A, data * own - prior.gradient, fit.u, theta, fit.at_limit);
+    const MatrixXd own = (H + 1e-9 * MatrixXd(H.diagonal().asDiagonal()) + 1e-12 * prior.information)
+                             .ldlt()
+                             .solve(MatrixXd(J.transpose() * weight.asDiagonal()));
+    const VectorXd step = step_within(A, -(data * (own * r)) - prior.gradient, fit.u, theta, fit.at_limit);
     fit.u += step;
+    gain = A.ldlt().solve(data * own);
     fit.covariance = A.ldlt().solve(MatrixXd::Identity(A.rows(), A.cols()));
     if (step.cwiseAbs().maxCoeff() < kStill) break;
   }
   fit.p = theta.p(fit.u);
+  add_held(fit, gain, held, [&](std::span<const double> p) { return missed(motion, windows, what, p); });
   return fit;
 }
 

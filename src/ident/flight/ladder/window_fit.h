@@ -28,9 +28,17 @@ struct WindowFit {
   std::size_t windows = 0;
 };
 
+/// A constant of the model that is not fitted, and the standard deviation with which it is known.
+struct HeldConstant {
+  int index = 0;
+  double std = 0.0;
+};
+
 /// Constants of `theta` (no gyro bias) from (1) and their priors. The error of the model is taken to grow
 /// with speed as the residuals show it to, so that slow flight, in which thrust carries the weight and little
 /// else acts, says what thrust is. Estimates do not leave what a vehicle can have; see `limits_of`.
-WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what);
+/// The covariance has its part from `held`: what the estimates move by where one of them is a deviation off.
+WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what,
+                      const std::vector<HeldConstant>& held);
 
 }  // namespace ident

@@ -6,6 +6,7 @@
 #include "ident/core/error.h"
 #include "ident/gap/comparison/comparison_views.h"
 #include "ident/gap/comparison/judged_difference.h"
+#include "ident/gap/hypotheses/candidates.h"
 #include "ident/gap/hypotheses/next_model.h"
 #include "ident/gap/views/verdict_json.h"
 
@@ -48,8 +49,9 @@ void tell_findings(Result& result, const Result& side) {
 
 }  // namespace
 
-Result compare_flights(const Vehicle& vehicle, std::span<const FlightLog> real,
+Result compare_flights(const Vehicle& stated, std::span<const FlightLog> real,
                        std::span<const FlightLog> simulated, const GapOptions& options) {
+  const Vehicle vehicle = with_doubted_effects(stated);  // as either diagnosis has it
   const Diagnosis flown = diagnose_gap(vehicle, real, part_of(options, 0.0, 0.4)),
                   computed = diagnose_gap(vehicle, simulated, part_of(options, 0.4, 0.8));
   const std::vector<Candidate> causes =

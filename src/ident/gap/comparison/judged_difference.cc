@@ -15,18 +15,14 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const nlohmann::ordered_json& verdict_of(const Diagnosis& side) { return side.result.extra.at("verdict"); }
-
-Names list(const Diagnosis& side, const char* key) { return verdict_of(side).at(key).get<Names>(); }
-
 bool contains(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
 // What else a side takes a cause for.
 void add_confused(const Diagnosis& side, const std::string& cause, Judged& out) {
-  if (!contains(list(side, "effects"), cause)) return;
-  for (const std::string& other : list(side, "confused_with"))
+  if (!contains(side.verdict.effects, cause)) return;
+  for (const std::string& other : side.verdict.confused_with)
     if (!contains(out.confused_with, other)) out.confused_with.push_back(other);
 }
 
@@ -46,8 +42,7 @@ std::string sizes(const ComparedCause& cause) {
 std::string left_sentence(const Sides& sides) {
   std::string out;
   for (const auto& [side, of] : {std::pair(&sides.real, "real"), {&sides.simulated, "simulated"}})
-    if (has_rest(*side))
-      out += fmt::format(" Of the {} log: {}", of, verdict_of(*side).at("sentence").get<std::string>());
+    if (has_rest(*side)) out += fmt::format(" Of the {} log: {}", of, side->verdict.sentence);
   if (!sides.not_shown.empty())
     out += fmt::format(" Not compared, because one of the logs cannot show it: {}.",
                        fmt::join(sides.not_shown, ", "));
@@ -71,13 +66,12 @@ std::string sentence_of(const Judged& verdict, const std::vector<ComparedCause>&
 }  // namespace
 
 bool has_rest(const Diagnosis& side) {
-  const std::string status = verdict_of(side).at("status");
-  return status == "partly" || status == "unknown";
+  return side.verdict.status == "partly" || side.verdict.status == "unknown";
 }
 
 std::vector<Candidate> named_causes(const Diagnosis& diagnosis, const Vehicle& stated) {
   std::vector<Candidate> out;
-  for (const std::string& name : list(diagnosis, "effects")) {
+  for (const std::string& name : diagnosis.verdict.effects) {
     std::set<int> rotors;
     for (const auto& [constant, known] : diagnosis.adopted.parameters) {
       const std::size_t at = constant.find('@');
@@ -97,11 +91,10 @@ std::vector<Candidate> named_causes(const Diagnosis& diagnosis, const Vehicle& s
 
 std::set<std::string> material_causes(const Diagnosis& diagnosis) {
   std::set<std::string> out;
-  const Names named = list(diagnosis, "effects");
-  for (const auto& candidate : diagnosis.result.extra.at("candidates")) {
-    const std::string name = candidate.at("effect");
-    const bool told = candidate.contains("share") && candidate["share"].is_number();
-    if (contains(named, name) && (!told || candidate["share"].get<double>() > kMaterial)) out.insert(name);
+  for (const JudgedCause& cause : diagnosis.verdict.causes) {
+    const std::string& name = cause.evidence.name;
+    const bool immaterial = cause.share.value <= kMaterial;  // not where the share is unknown
+    if (contains(diagnosis.verdict.effects, name) && !immaterial) out.insert(name);
   }
   return out;
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "ident/core/format_number.h"
 #include "ident/result/json_number.h"
 
@@ -22,19 +24,18 @@ Json to_json(const FileChange& change) {
 }
 
 /// Empty where nothing was predicted.
-std::string on_held_out_flight(const Json& gap) {
-  const auto text = [&](const char* key) { return format_number(gap[key].get<double>(), 3); };
-  for (const char* key : {"before", "after", "noise_floor"})
-    if (!gap.contains(key) || !gap[key].is_number()) return {};
+std::string on_held_out_flight(const GapClosed& gap) {
+  if (!std::isfinite(gap.before + gap.after + gap.floor)) return {};
   return fmt::format(
       "Half a second ahead on held-out flight, the file as given misses {} times the noise of the sensors, "
       "the model found {} times; no model misses less than {}.",
-      text("before"), text("after"), text("noise_floor"));
+      format_number(gap.before, 3), format_number(gap.after, 3), format_number(gap.floor, 3));
 }
 
 }  // namespace
 
-void enter_fix(Result& result, const FixedFile& fixed, const std::string& from, const std::string& to) {
+void enter_fix(Diagnosis& diagnosis, const FixedFile& fixed, const std::string& from, const std::string& to) {
+  Result& result = diagnosis.result;
   Section section{.title = fmt::format("What changes in {}", from)};
   Table table{.title = section.title, .columns = {"entry", "in the file", "from these logs", "unit"}};
   Json changes = Json::array();
@@ -43,7 +44,7 @@ void enter_fix(Result& result, const FixedFile& fixed, const std::string& from, 
                           after_text(change), change.unit});
     changes.push_back(to_json(change));
   }
-  const std::string predicted = on_held_out_flight(result.extra["gap"]);
+  const std::string predicted = on_held_out_flight(diagnosis.gap);
   section.text = fixed.changes.empty() ? "No value of this file was identified to be another one."
                                        : "Values that these logs do not tell stay as they were.";
   if (!predicted.empty()) section.text += " " + predicted;

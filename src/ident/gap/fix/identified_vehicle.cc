@@ -5,25 +5,19 @@
 #include <cmath>
 #include <set>
 
+#include "ident/gap/verdict/decision.h"
+
 namespace ident {
 namespace {
 
-// Share of what is known of a constant that the flights must have told. [-] As for a contradiction.
-constexpr double kHeard = 0.05;
-
 bool is_identified(const Parameter& p) { return p.identifiable || p.joint; }
 
-bool is_named(const std::string& effect, const Result& result) {
-  if (!result.extra.contains("verdict")) return false;
-  return std::ranges::any_of(result.extra["verdict"]["effects"],
-                             [&](const auto& name) { return name == effect; });
-}
-
 // A drag known with the rotor speed only is not identified by itself, and is there.
-bool is_told(const Parameter& p, const Result& result) {
+bool is_told(const Parameter& p, const std::vector<std::string>& effects) {
   if (is_identified(p)) return true;
   const std::size_t dot = p.name.find('.');
-  if (dot != std::string::npos) return std::isfinite(p.value) && is_named(p.name.substr(0, dot), result);
+  if (dot != std::string::npos)
+    return std::isfinite(p.value) && std::ranges::find(effects, p.name.substr(0, dot)) != effects.end();
   return p.prior_value && p.from_flight.value_or(0.0) > kHeard;
 }
 
@@ -35,7 +29,7 @@ Vehicle identified_vehicle(const Vehicle& stated, const Diagnosis& diagnosis) {
   std::set<std::string> taken;
   for (const auto& [name, known] : diagnosis.adopted.parameters) {
     const Parameter* found = diagnosis.result.find(name);
-    if (!found || !is_told(*found, diagnosis.result)) continue;
+    if (!found || !is_told(*found, diagnosis.verdict.effects)) continue;
     out.parameters[name] = known;
     taken.insert(name);
   }

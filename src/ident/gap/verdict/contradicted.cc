@@ -14,8 +14,7 @@ namespace ident {
 
 std::vector<Contradiction> contradictions(const std::vector<Parameter>& fitted,
                                           const std::vector<std::string>& causes) {
-  constexpr double kHeard = 0.05;  // share of what is known of a constant that the flight must have told
-  constexpr double kOff = 2.0;     // of the bench's own deviations
+  constexpr double kOff = 2.0;  // of the bench's own deviations
   const auto is_cause = [&](const Parameter& p) {
     const std::string own = "parameter:" + p.name;
     return std::ranges::any_of(causes, [&](const std::string& cause) {

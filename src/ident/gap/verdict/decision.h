@@ -22,6 +22,10 @@ inline constexpr double kClaimed = worth_saying(kLosses.false_alarm, kLosses.mis
 /// which it only mends the form of those found. [-] 1 in 20: as a reader of a 95 % interval expects.
 inline constexpr double kTold = 0.05;
 
+/// Share of what is known of a constant from which the flight has told something of it. [-] One in 20, as
+/// kTold.
+inline constexpr double kHeard = 0.05;
+
 /// Share of the gap from which what is left is spoken of. [-] Of a tenth an engineer would go on looking.
 inline constexpr double kMaterial = 0.1;
 

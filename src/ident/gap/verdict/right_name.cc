@@ -120,10 +120,8 @@ NameEvidence evidence_of(const std::string& name, const NamesSeen& seen) {
     out.share = std::clamp(share->share.ci95[1], 0.0, 1.0);
   else
     out.share = 1;
-  const std::vector<std::string>& excluded = search.problem.excluded;
-  out.untried = std::ranges::any_of(traits_of(name).look_alikes, [&](std::string_view other) {
-    return std::ranges::find(excluded, other) != excluded.end();
-  });
+  out.untried = std::ranges::any_of(search.problem.excluded,
+                                    [&](const std::string& other) { return look_alike(name, other); });
   out.seen = traits_of(name).of_battery && search.thrust.plain();
   return out;
 }

@@ -96,24 +96,18 @@ Judged judge(const Seen& seen) {
   for (const JudgedCause& cause : out.causes)
     if (closes_some(cause, left)) closing.push_back(cause.evidence.name);
   std::erase_if(out.effects, [&](const std::string& name) { return !is_among(name, closing); });
-  // In the place of those named: sets with others, about as probable.
-  // What was seen without the sets (the battery in the thrust) has nothing in its place.
-  std::vector<std::string> by_sets = out.effects;
-  std::erase_if(by_sets, [&](const std::string& name) {
-    return std::ranges::any_of(out.causes, [&](const JudgedCause& cause) {
-      return cause.evidence.name == name && cause.evidence.seen;
-    });
-  });
+  std::vector<std::string> found, by_sets;
+  for (const JudgedCause& cause : out.causes) {
+    found.push_back(cause.evidence.name);
+    if (is_among(found.back(), out.effects) && !cause.evidence.seen) by_sets.push_back(found.back());
+  }
+  // In the place of those named: sets with others, about as probable. What the sets did not have to show (the
+  // battery in the thrust) has nothing in its place.
   if (!by_sets.empty()) out.confused_with = in_their_place(by_sets, seen.search, seen.fitted);
   // A cause that was tried beside them and closes nothing closes nothing in their place either.
-  std::erase_if(out.confused_with, [&](const std::string& name) {
-    const bool found = std::ranges::any_of(
-        out.causes, [&](const JudgedCause& cause) { return cause.evidence.name == name; });
-    return found && !is_among(name, closing);
-  });
+  std::erase_if(out.confused_with,
+                [&](const std::string& name) { return is_among(name, found) && !is_among(name, closing); });
   out.remaining = left_by(out.effects, seen.shares);
-  std::vector<std::string> found;
-  for (const JudgedCause& cause : out.causes) found.push_back(cause.evidence.name);
   out.findings = contradictions(seen.fitted, found);
   const bool something_else = out.rest.probability >= kClaimed;
   if (out.effects.empty()) {

@@ -29,7 +29,7 @@ std::string named(const Judged& verdict) {
     for (const JudgedCause& cause : verdict.causes)
       if (cause.evidence.name == name && std::isfinite(cause.share.value))
         out.back() += traits_of(name).of_mounting && cause.share.value < kMaterial
-                          ? " (in the readings; the vehicle flies as without)"
+                          ? " (changes readings, not the flight)"
                           : fmt::format(" ({} of the gap)", percent(cause.share));
   }
   return fmt::format("{}", fmt::join(out, " and "));

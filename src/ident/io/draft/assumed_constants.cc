@@ -33,18 +33,21 @@ std::string line(const char* name, double value, double relative_std, const std:
 std::string assumed_constants(double mass, double arm, int rotors, const CarriedWeight& carried) {
   const double radius = kRadiusPerArm * arm;
   const double command = carried.command.value_or(kHoverCommand);
-  const double km = carried.speed ? *carried.speed / command : kTipSpeed / radius;
-  const double Omega_hover = command * km;
+  const bool both = carried.command && carried.speed;
+  const double km = both ? *carried.speed / command : kTipSpeed / radius;
+  const double Omega_hover = carried.speed.value_or(command * km);
   const double kT = mass * kGravity / (rotors * Omega_hover * Omega_hover);
   const double J = mass * arm * arm;
-  const std::string hover =
-      carried.command ? fmt::format("carries the mass above at a command of {:.2f}, as in this log", command)
-                      : "hover at half the command";
+  std::string hover = "hover at half the command";
+  if (carried.command)
+    hover = fmt::format("carries the mass above at a command of {:.2f}, as in this log", command);
+  if (carried.speed)
+    hover = fmt::format("carries the mass above at {:.0f} rad/s, as in this log", Omega_hover);
   return "parameters:\n" + line("kT", kT, 1.0, "N s^2/rad^2, " + hover) +
          line("kQ", kDragArm * radius * kT, 1.0, "N m s^2/rad^2") +
          line("km", km, 0.5,
-              carried.speed ? "rad/s at full command, by the rotor speeds of the log"
-                            : "rad/s at full command, tips at 90 m/s") +
+              both ? "rad/s at full command, by commands and rotor speeds of this log"
+                   : "rad/s at full command, tips at 90 m/s") +
          line("omega_m", kMotor, 1.0, "rad/s") + line("zeta_m", 1.0, 0.5, "-") +
          line("Jxx", kRollInertia * J, 0.5, "kg m^2, by mass and arm") +
          line("Jyy", kRollInertia * J, 0.5, "kg m^2, by mass and arm") +

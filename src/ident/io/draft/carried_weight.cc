@@ -12,7 +12,7 @@
 namespace ident {
 namespace {
 
-constexpr double kFlies = 0.5;           // of g: less thrust is a fall or the ground
+constexpr double kFlies = 0.5;           // of the weight: with less thrust it falls
 constexpr std::size_t kLeastRows = 100;  // fewer say nothing
 
 bool is_used(const FlightLog& log, double t) {
@@ -36,10 +36,13 @@ std::optional<double> at_one_weight(const FlightLog& log, const std::vector<std:
 
 }  // namespace
 
+CarriedWeight carried_weight(const FlightLog& log, double g) {
+  return {at_one_weight(log, log.delta, g), at_one_weight(log, log.Omega, g)};
+}
+
 CarriedWeight carried_weight(const LogStreams& streams, const Vehicle& vehicle) {
   try {
-    const FlightLog log = flight_log_of(streams, vehicle, std::nullopt);
-    return {at_one_weight(log, log.delta, vehicle.g), at_one_weight(log, log.Omega, vehicle.g)};
+    return carried_weight(flight_log_of(streams, vehicle, std::nullopt), vehicle.g);
   } catch (const Error&) {  // a log without flight: nothing to say of it
     return {};
   }

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "ident/data/flight_log.h"
 #include "ident/data/log_streams.h"
 #include "ident/model/vehicle.h"
 
@@ -15,6 +16,9 @@ struct CarriedWeight {
 
 /// Root mean square over the rotors, median over the time in the air, taken to a thrust of one weight by the
 /// accelerometer where there is one. Thrust is taken as quadratic. Empty where the log does not say.
+CarriedWeight carried_weight(const FlightLog& log, double g);
+
+/// The same of a log as its format has it; empty where it holds no flight.
 CarriedWeight carried_weight(const LogStreams& log, const Vehicle& vehicle);
 
 }  // namespace ident

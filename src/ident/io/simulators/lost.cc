@@ -87,7 +87,7 @@ void lost_of_the_motor(const Vehicle& v, const Capacity& holds, std::vector<std:
         "easier to control",
         1e3 * (lags.up + lags.dead_time)));
   if (holds.motor != Capacity::Motor::first_order || !(lags.up > 0)) return;
-  if (v.has("zeta_m") && v.value("zeta_m") < kFirstOrderDamping / 20)
+  if (v.has("zeta_m") && !is_first_order(v))
     out.push_back(fmt::format(
         "the motor of second order (omega_m {:.4g} rad/s, zeta_m {:.3g}) becomes one of first order "
         "with the same mean delay of {:.3g} ms",

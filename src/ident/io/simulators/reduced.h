@@ -12,6 +12,10 @@ namespace ident {
 
 /// Damping that stands for a motor of first order: the second pole is 4 million times as fast as the first.
 inline constexpr double kFirstOrderDamping = 1000.0;
+/// Whether the damping of a vehicle stands for that.
+inline bool is_first_order(const Vehicle& vehicle) {
+  return vehicle.value("zeta_m") >= kFirstOrderDamping / 20;
+}
 
 /// Time constants of a rotor's speed, s: 2 zeta_m/omega_m has the mean delay of the second-order motor.
 struct MotorLags {
