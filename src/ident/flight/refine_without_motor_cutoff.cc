@@ -104,30 +104,39 @@ std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
 
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   const auto driven = without_undriven(vehicle, logs);
-  std::optional<Result> all = refined(vehicle, logs, options, !driven || driven->empty());
+  if (!driven) return refine_as_logged(vehicle, logs, options);
+  // Both fits are of the same model: before validation, which may take a simpler one.
+  RefineOptions only_fit = options;
+  only_fit.validate = false;
+  const auto whole = [&](const Result& fit, std::span<const FlightLog> used) {
+    return options.validate ? refine_as_logged(vehicle, used, options) : fit;
+  };
+  std::optional<Result> all = refined(vehicle, logs, only_fit, driven->empty());
   // Measured speeds may be what drives the vehicle.
-  if (!driven || (all && !all->find("omega_m"))) return *all;
+  if (all && !all->find("omega_m")) return whole(*all, logs);
   std::optional<Result> result;
-  if (!driven->empty()) result = refined(vehicle, *driven, options, !all);
+  if (!driven->empty()) result = refined(vehicle, *driven, only_fit, !all);
   const auto wrong = [](const Result& r) { return !disqualified(r.warnings).empty(); };
-  if (all && result && wrong(*all) && wrong(*result)) return *all;
+  if (all && result && wrong(*all) && wrong(*result)) return whole(*all, logs);
   // Pieces may be too short to tell how sensors are mounted and rotors turn.
   if (!result || (all && wrong(*result))) {
-    all->warn("motors_off",
-              "Motors are off (commands of 0) so often that the other rows tell little. These rows are used "
-              "as if motors followed their commands. Motors that coast do not, which biases the motor "
-              "constants. Keep every command above 0 in flight.");
-    return *all;
+    Result out = whole(*all, logs);
+    out.warn("motors_off",
+             "Motors are off (commands of 0) so often that the other rows tell little. These rows are used "
+             "as if motors followed their commands. Motors that coast do not, which biases the motor "
+             "constants. Keep every command above 0 in flight.");
+    return out;
   }
   std::string with = "nothing flies with them";
   if (all) {
     const std::string name = contradicted_by_driven(*all, *result);
-    if (name.empty()) return *all;
+    if (name.empty()) return whole(*all, logs);
     with = fmt::format("with them {} would be {}", name, format_number(all->find(name)->value, 3));
   }
-  result->warn("not_driven", "Rows around commands of 0 are not used, because a motor that is off coasts: " +
-                                 with + ". Keep every command above 0 in flight.");
-  return *result;
+  Result out = whole(*result, *driven);
+  out.warn("not_driven", "Rows around commands of 0 are not used, because a motor that is off coasts: " +
+                             with + ". Keep every command above 0 in flight.");
+  return out;
 }
 
 }  // namespace ident
