@@ -122,10 +122,12 @@ Eigen::Vector3d mjcf_axis(const Fields& fields, const std::string& prefix) {
 
 std::string xml_text(const std::string& name) {
   std::string out;
-  for (const char c : name)
-    if (std::string_view("<>&\"'-").find(c) == std::string_view::npos &&
-        static_cast<unsigned char>(c) >= 0x20)
+  for (const char c : name) {
+    const bool ends_a_comment = c == '-' && out.ends_with('-');
+    if (std::string_view("<>&\"'").find(c) == std::string_view::npos &&
+        static_cast<unsigned char>(c) >= 0x20 && !ends_a_comment)
       out += c;
+  }
   return out;
 }
 

@@ -19,7 +19,7 @@ Eigen::Matrix3d mjcf_inertia(const Fields& fields);
 /// Thrust axis of the site whose fields begin with `prefix`.
 Eigen::Vector3d mjcf_axis(const Fields& fields, const std::string& prefix);
 
-/// A name without what XML does not allow in it.
+/// A text for comments and attributes of XML, without what would end one.
 std::string xml_text(const std::string& name);
 
 }  // namespace ident
