@@ -26,6 +26,8 @@ The recordings are not part of the project; their origin and licences:
 |---|---|---|
 | `arplab_crazyflie` | a brushed Crazyflie, 1 kHz: commands, rates, specific force | Eschmann, Albani, Loianno, Data-Driven System Identification of Quadrotors Subject to Motor Delays; github arplaboratory/data-driven-system-identification 2d267dd, MIT |
 | `nanobench` | a Crazyflie 2.1 under motion capture, 100 Hz | Ullah, Baca; github syediu/nanobench-iros2026 0ae7d68, BSD-3-Clause |
+| `neurobem` | a racing quadrotor with rotor speeds, 400 Hz | Bauersfeld, Kaufmann et al., NeuroBEM, RSS 2021 |
+| `neuralswarm` | a 67 g quadrotor close to the ground | Shi, Hönig et al., Neural-Swarm, IEEE T-RO 2022 |
 | `crazypad` | two Crazyflie 2.1, 100 Hz: commands and velocity, no rates; normal, and one blade cut | Masalimov et al., Data 2024, 9, 79; github AerialRoboticsUUST/CrazyPAD 5448265, MIT |
 
 Values with their 95 % intervals' half width; (..) where a flight does not determine them. The lag of the motors is `2 zeta_m/omega_m`.
@@ -169,6 +171,17 @@ def nanobench(program, data):
     print(diagnosed("all seven", *ident(program, "gap", *flights, *common)))
 
 
+def others(program, data):
+    print("\n## neurobem and neuralswarm\n\nA racing quadrotor with measured rotor speeds; a 67 g quadrotor close to the ground, commands and battery.")
+    refinement_head()
+    flights = [data / "neurobem" / "flight_a.csv", *sorted((data / "neuralswarm").glob("*.csv"))]
+    for f in flights:
+        print(refined(f.stem, *ident(program, "flightlog", f, "--vehicle", f.parent / "vehicle.yaml", "--refine")))
+    diagnosis_head()
+    for f in flights:
+        print(diagnosed(f.stem, *ident(program, "gap", f, "--vehicle", f.parent / "vehicle.yaml")))
+
+
 def crazypad(program, data):
     folder, known = data / "crazypad", ["--map", HERE / "maps" / "crazypad_crazyflie.yaml"]
     vehicle = HERE / "published" / "crazyflie_21.yaml"
@@ -192,7 +205,7 @@ def crazypad(program, data):
 
 def main(program, data):
     print(HEAD.format(data=data).rstrip())
-    for part in (arplab, nanobench, crazypad):
+    for part in (arplab, nanobench, others, crazypad):
         part(program, Path(data))
         sys.stdout.flush()
 

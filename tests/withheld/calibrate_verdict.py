@@ -43,7 +43,7 @@ def rows_of(campaign):
             answer = json.loads(answer_file.read_text())
             for c in answer.get("candidates", []):
                 why = c.get("why")
-                if not why or why["seen"] or why["look_alike_untried"] or why["in_sets"] < 0.05:
+                if not why or why["seen"] or why["beside_left_out"] < 0.9 or why["in_sets"] < 0.05:
                     continue
                 right = c["effect"] in (names | also) - gone
                 limit = min((e["size_over_limit"] for e in truth["effects"]), default=0)

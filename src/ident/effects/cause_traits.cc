@@ -7,29 +7,13 @@
 namespace ident {
 namespace {
 
-using Names = std::array<std::string_view, 5>;
-
 // A point mass at a place moves all of them (payload.h).
-constexpr Names kOfPayload = {"cg_offset", "parameter:m", "parameter:Jxx", "parameter:Jyy", "parameter:Jzz"};
+constexpr std::array<std::string_view, 6> kOfPayload = {
+    "cg_offset", "products_of_inertia", "parameter:m", "parameter:Jxx", "parameter:Jyy", "parameter:Jzz"};
 // A disc that flaps back pulls as a rotor that drags (blade_flapping.h).
 constexpr std::array<std::string_view, 1> kOfFlapping = {"rotor_drag"};
 // Moving air pushes through whichever drag there is (wind.h).
 constexpr std::array<std::string_view, 2> kOfWind = {"rotor_drag", "parasitic_drag"};
-
-// Each pair once. A shift, a weak rotor and a payload go together with a correlation of 0.98 in gentle flight
-// (tests/withheld). Of the others physics says it.
-using Pair = std::array<std::string_view, 2>;
-constexpr std::array kLookAlikes = {
-    Pair{"cg_offset", "rotor_mismatch"},
-    Pair{"cg_offset", "payload"},
-    Pair{"cg_offset", "imu_lever_arm"},  // the sensor sits off the centre of gravity, whichever moved
-    Pair{"parameter:m", "payload"},
-    Pair{"parameter:m", "parameter:kT"},   // flight tells thrust over mass
-    Pair{"rotor_mismatch", "rotor_tilt"},  // a steady moment of one rotor
-    Pair{"imu_bias", "imu_misalignment"},  // level, gravity through a small angle is a bias
-    Pair{"motor_delay", "sensor_delay"},   // commands late, or readings
-    Pair{"blade_flapping", "rotor_drag"},  // a disc that flaps back pulls as a rotor that drags
-};
 
 constexpr std::array kTraits = {
     CauseTraits{.name = "payload",
@@ -75,14 +59,6 @@ bool implies(std::string_view cause, std::string_view other) {
   const auto with = traits_of(cause).implies;
   return std::ranges::find(with, other) != with.end();
 }
-
-bool look_alike(std::string_view cause, std::string_view other) {
-  return std::ranges::any_of(kLookAlikes, [&](const Pair& pair) {
-    return (pair[0] == cause && pair[1] == other) || (pair[1] == cause && pair[0] == other);
-  });
-}
-
-std::span<const std::array<std::string_view, 2>> all_look_alikes() { return kLookAlikes; }
 
 std::span<const CauseTraits> all_cause_traits() { return kTraits; }
 

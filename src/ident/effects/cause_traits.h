@@ -1,7 +1,6 @@
 // What is physics about a cause: stated here once, so that a diagnosis knows no cause by its name.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string_view>
 
@@ -32,13 +31,6 @@ const CauseTraits& traits_of(std::string_view cause);
 
 /// Whether `cause` brings `other` along.
 bool implies(std::string_view cause, std::string_view other);
-
-/// Whether the signatures of two causes are next to each other in any but rich flight. Where one of them was
-/// excluded, the other one may stand in for it.
-bool look_alike(std::string_view cause, std::string_view other);
-
-/// Pairs of look-alikes, each once.
-std::span<const std::array<std::string_view, 2>> all_look_alikes();
 
 /// Causes with traits, in no order: a test holds that each is an effect or a constant of the model.
 std::span<const CauseTraits> all_cause_traits();

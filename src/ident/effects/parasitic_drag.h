@@ -2,7 +2,8 @@
 //
 //   F = -C abs(v) v   on the body
 //
-// Assumption: the same area from every side.
+// Assumption: the same area from every side. No body drags more than a plate across the wind with an edge as
+// long as the vehicle (Hoerner: C_D = 1.2): C = 0.12 N s^2/m^2 for 0.4 m, 0.5 kg.
 // Looks like: force against the velocity, with its square, independent of rotor speed; matters above 4 m/s.
 // Confused with: rotor_drag, wind.
 #pragma once
@@ -21,7 +22,7 @@ struct ParasiticDrag {
       .confused_with = "rotor_drag, wind",
       .split_by = "fly one speed at two collectives, or twice the speed: body drag goes with the square"};
   static constexpr std::array parameters{
-      EffectParameter{"C", "N s^2/m^2", 0.0, Range::positive, 0.005, 0.25}};
+      EffectParameter{"C", "N s^2/m^2", 0.0, Range::positive, 0.005, 0.12}};
 
   template <class S>
   static void apply(const S* p, BodySeam<S>& seam) {

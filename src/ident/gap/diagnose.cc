@@ -29,6 +29,7 @@
 #include "ident/flight/prepare.h"
 #include "ident/flight/refine_trim.h"
 #include "ident/gap/diagnose_trim.h"
+#include "ident/gap/diagnose_windows.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/evidence.h"
 #include "ident/gap/evidence/held_out_gap.h"
@@ -95,6 +96,7 @@ enum class Commands { held, open };
 // A diagnosis, and where one that is `unknown` may be for its commands, whether these held.
 struct Looked : Diagnosis {
   HeldCommands commands;
+  std::vector<double> trained;  // constants by the first part of the flight
 };
 
 // Where the battery matters, it matters at which voltage km holds.
@@ -197,6 +199,7 @@ std::optional<Looked> diagnosed(const Vehicle& vehicle, std::span<const FlightLo
   if (options.progress) options.progress(0.9, "held-out flight");
 
   const Findings seen = findings_of(record, search);
+  out.trained = search.best.theta->p(seen.held_out.found);
   const GapClosed& gap = seen.held_out.judged;
   if (look == Look::closer && !std::isfinite(gap.after)) return std::nullopt;
   state_constants(result, search, vehicle, p, hover);
@@ -261,6 +264,34 @@ Looked looked_at(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
   return std::move(*diagnosed(vehicle, logs, options, entry, begun, Look::last, commands));
 }
 
+// By models of the whole flight, with commands that held or that did not.
+Looked by_whole_models(const Vehicle& vehicle, std::span<const FlightLog> logs, const GapOptions& options,
+                       const FlightEntry& entry, const Result& begun) {
+  Looked seen = looked_at(vehicle, logs, options, entry, begun, Commands::held);
+  if (!seen.commands.doubtful()) return seen;
+  try {
+    Looked open = looked_at(with_open_motors(vehicle, input_interval(entry.record, logs)), logs, options,
+                            entry, begun, Commands::open);
+    doubt_commands_between_rows(open.result, entry.record, logs, seen.commands);
+    doubt_open_motors(open.result, vehicle);
+    open.adopted = with_stated_motors(std::move(open.adopted), vehicle);
+    return open;
+  } catch (const DataError&) {  // no model that stands
+    doubt_commands_between_rows(seen.result, entry.record, logs, seen.commands);
+    return seen;
+  }
+}
+
+void warn_of_measured_motion(Result& result, const std::string& why) {
+  result.warn("measured_motion",
+              why.empty()
+                  ? "no model of the whole flight predicts velocity as well as forces along the measured "
+                    "motion do: causes are looked for in forces and moments, attitude and rates as "
+                    "measured"
+                  : "no model of the whole flight can be fitted (" + why +
+                        "): causes are looked for in forces and moments, attitude and rates as measured");
+}
+
 }  // namespace
 
 Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, const GapOptions& options) {
@@ -284,19 +315,20 @@ Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, c
   }
   require_turning(record.signals);
   const FlightEntry entry{std::move(p), std::move(record), std::move(tested), std::move(vibration)};
-  Looked seen = looked_at(vehicle, logs, options, entry, result, Commands::held);
-  if (!seen.commands.doubtful()) return seen;
+  std::optional<Looked> whole;
+  std::string why;
   try {
-    Looked open = looked_at(with_open_motors(vehicle, input_interval(entry.record, logs)), logs, options,
-                            entry, result, Commands::open);
-    doubt_commands_between_rows(open.result, entry.record, logs, seen.commands);
-    doubt_open_motors(open.result, vehicle);
-    open.adopted = with_stated_motors(std::move(open.adopted), vehicle);
-    return open;
-  } catch (const DataError&) {  // no model that stands
-    doubt_commands_between_rows(seen.result, entry.record, logs, seen.commands);
-    return seen;
+    whole = by_whole_models(vehicle, logs, options, entry, result);
+  } catch (const DataError& error) {
+    why = error.what();
   }
+  std::optional<WindowDiagnosis> windows = diagnose_windows(vehicle, logs, options, entry, result);
+  if (!windows || (whole && !stands_against(*windows, entry.record, whole->trained, whole->verdict))) {
+    if (!whole) throw DataError(why);
+    return *std::move(whole);
+  }
+  warn_of_measured_motion(windows->result, whole ? "" : why);
+  return *std::move(windows);
 }
 
 }  // namespace ident

@@ -85,9 +85,9 @@ TEST(Verdict, ACauseBesideTheOneFoundIsNoRivalAndOneInItsPlaceIs) {
   EXPECT_EQ(instead.confused_with, Names{"payload"});
 }
 
-TEST(Verdict, ACauseWhoseLookAlikeWasExcludedIsNotNamed) {
+TEST(Verdict, ACauseWhoseWorkOneThatWasLeftOutMayDoIsNotNamed) {
   Case c({"cg_offset", "payload"}, {"cg_offset"});
-  c.search.problem.excluded = {"rotor_mismatch"};
+  c.search.beside_left_out = {{"cg_offset", 0.5}};
   c.weighs({0}, 1.0);
   EXPECT_EQ(c.judged().status, "unknown");
   EXPECT_EQ(c.judged().confused_with, Names{"cg_offset"});

@@ -19,15 +19,6 @@ constexpr double kExplains = 0.7;          // of the error without a model: half
 constexpr double kRefusedByChance = 0.05;  // probability, of a model that is as good as those below
 constexpr double kLeastHeldOut = 1.5;      // s: a window of the longest horizon, and a second one
 
-FlightRecord training_of(const FlightRecord& record, double share) {
-  FlightRecord out = without_arcs(record);
-  for (const FlightArc& arc : record.arcs) {
-    const auto cut = std::ranges::lower_bound(arc.t, training_end(arc, share)) - arc.t.begin();
-    if (cut >= 8) out.arcs.push_back(arc.piece(0, static_cast<std::size_t>(cut)));
-  }
-  return out;
-}
-
 ErrorTable table_of(const std::vector<WindowErrors>& windows) {
   ErrorTable table;
   for (std::size_t m = 0; m < kMetrics; ++m)

@@ -11,6 +11,7 @@
 #include "ident/flight/ladder/constant_limits.h"
 #include "ident/flight/ladder/error_by_speed.h"
 #include "ident/flight/ladder/model_along.h"
+#include "ident/flight/ladder/window_residuals.h"
 
 namespace ident {
 namespace {
@@ -18,9 +19,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kForceHorizon = 0.5, kForceSpacing = 0.1;     // s: users judge by half a second
-constexpr double kMomentHorizon = 0.1, kMomentSpacing = 0.05;  // s: rates are turned back sooner
-constexpr double kBlockFit = 2.0;                              // s over which residuals are taken for related
+constexpr double kBlockFit = 2.0;  // s over which residuals are taken for related
 constexpr int kSloped = 2;  // of them with slopes of their own: forces are nearly linear in all constants
 constexpr int kSteps = 6;   // most Gauss-Newton steps; the model is nearly linear
 constexpr double kStill = 1e-3;  // of a unit: no step worth another
@@ -29,19 +28,7 @@ constexpr double kApart = 1e-3;  // of a unit, for differences
 // Both sides of (1) at given constants, three components a window.
 VectorXd missed(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
                 std::span<const double> p) {
-  const std::vector<ModelAlong> model = model_along(motion, p);
-  VectorXd out(3 * static_cast<Eigen::Index>(windows.size()));
-  for (std::size_t w = 0; w < windows.size(); ++w) {
-    const auto& [a, begin, end, t, speed] = windows[w];
-    const MeasuredArc& measured = motion.arcs[a];
-    const Vec3<double> miss = what == FitTo::forces
-                                  ? Vec3<double>(measured.gained_W[end] - measured.gained_W[begin] -
-                                                 (model[a].gained_W[end] - model[a].gained_W[begin]))
-                                  : Vec3<double>(measured.body[end].w_B - measured.body[begin].w_B -
-                                                 (model[a].turned_B[end] - model[a].turned_B[begin]));
-    out.segment<3>(3 * static_cast<Eigen::Index>(w)) = miss;
-  }
-  return out;
+  return missed_in(motion, windows, what, model_along(motion, p));
 }
 
 MatrixXd slopes(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
@@ -134,9 +121,7 @@ void add_held(WindowFit& fit, const MatrixXd& gain, const std::vector<HeldConsta
 
 WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what,
                       const std::vector<HeldConstant>& held) {
-  const bool forces = what == FitTo::forces;
-  const std::vector<Window> windows =
-      windows_of(motion, forces ? kForceHorizon : kMomentHorizon, forces ? kForceSpacing : kMomentSpacing);
+  const std::vector<Window> windows = windows_of(motion, what);
   WindowFit fit;
   fit.windows = windows.size();
   fit.u = VectorXd::Zero(theta.size());

@@ -12,13 +12,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "ident/flight/ladder/measured_motion.h"
+#include "ident/flight/ladder/window_residuals.h"
 #include "ident/flight/smoother/parameterisation.h"
 
 namespace ident {
-
-/// Which side of (1) constants are fitted to.
-enum class FitTo { forces, moments };
 
 struct WindowFit {
   std::vector<double> p;       ///< the model's constants, those that were fitted among them

@@ -48,6 +48,17 @@ double training_end(const FlightArc& arc, double training_share) {
   return arc.t.front() + training_share * (arc.t.back() - arc.t.front());
 }
 
+FlightRecord training_of(const FlightRecord& record, double training_share) {
+  constexpr std::size_t kFewestRows = 8;
+  FlightRecord out = without_arcs(record);
+  for (const FlightArc& arc : record.arcs) {
+    const auto cut = std::ranges::lower_bound(arc.t, training_end(arc, training_share)) - arc.t.begin();
+    if (static_cast<std::size_t>(cut) >= kFewestRows)
+      out.arcs.push_back(arc.piece(0, static_cast<std::size_t>(cut)));
+  }
+  return out;
+}
+
 FlightRecord held_out_of(const FlightRecord& record, double training_share) {
   FlightRecord held_out = without_arcs(record);
   held_out.duration = 0;

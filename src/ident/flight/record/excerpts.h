@@ -11,6 +11,9 @@ FlightRecord without_arcs(const FlightRecord& record);
 /// End (s) of the first `training_share` of an arc's time.
 double training_end(const FlightArc& arc, double training_share);
 
+/// What comes before it, of every arc that is long enough to be one.
+FlightRecord training_of(const FlightRecord& record, double training_share);
+
 /// The rest of every arc after `training_share` of its time.
 FlightRecord held_out_of(const FlightRecord& record, double training_share);
 

@@ -218,9 +218,7 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
   Builder build(vehicle, p, signals, base, exclude);
   for (int i = 0; i < static_cast<int>(base.size()); ++i) build.add_value(i);
   for (const EffectEntry& e : catalogue()) build.add_effect(e);
-  ExtendedProblem out = build.end();
-  out.excluded = exclude;
-  return out;
+  return build.end();
 }
 
 std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle& vehicle,

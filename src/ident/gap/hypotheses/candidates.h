@@ -34,7 +34,6 @@ struct ExtendedProblem {
   std::vector<FreeConstant> constants;
   int base = 0;  ///< number of base constants
   std::vector<Candidate> candidates;
-  std::vector<std::string> excluded;  ///< names of causes that must not be tried
 };
 
 /// How far from the origin something may be bolted on, m: twice as far as the farthest rotor.

@@ -32,8 +32,16 @@ std::vector<MatrixXd> gust_arm(const FlightRecord& record, const FlightSmoother&
   return profiles;
 }
 
-// Scores of blocks of time and their information, each projected on the base: what is left of them by
-// coloured residuals is wider than white ones would make it.
+}  // namespace
+
+std::vector<int> base_unknowns(const QuadraticForm& f, const ExtendedProblem& problem) {
+  std::vector<int> free;
+  for (int i = 0; i < problem.base; ++i)
+    if (!problem.constants[static_cast<std::size_t>(i)].adopted) free.push_back(i);
+  for (int i = f.constants; i < f.g.size(); ++i) free.push_back(i);
+  return free;
+}
+
 void add_blocks(QuadraticForm& form, const std::vector<ScoreBlock>& blocks, const std::vector<int>& base) {
   if (blocks.size() < kFewestBlocks) return;
   const Eigen::Index all = form.g.size(), m = static_cast<Eigen::Index>(base.size());
@@ -54,16 +62,6 @@ void add_blocks(QuadraticForm& form, const std::vector<ScoreBlock>& blocks, cons
   for (std::size_t b = 0; b < blocks.size(); ++b) scores.col(static_cast<Eigen::Index>(b)) = blocks[b].score;
   form.scores = P.transpose() * scores;
   for (const ScoreBlock& block : blocks) form.information.push_back(P.transpose() * (block.information * P));
-}
-
-}  // namespace
-
-std::vector<int> base_unknowns(const QuadraticForm& f, const ExtendedProblem& problem) {
-  std::vector<int> free;
-  for (int i = 0; i < problem.base; ++i)
-    if (!problem.constants[static_cast<std::size_t>(i)].adopted) free.push_back(i);
-  for (int i = f.constants; i < f.g.size(); ++i) free.push_back(i);
-  return free;
 }
 
 QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,

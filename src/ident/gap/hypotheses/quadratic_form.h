@@ -30,6 +30,10 @@ QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& 
 /// Unknowns of a model with no cause in it: constants that no effect brought, gyro biases, the gusts' height.
 std::vector<int> base_unknowns(const QuadraticForm& form, const ExtendedProblem& problem);
 
+/// Scores of blocks of time and their information, each projected on the base: what is left of them by
+/// coloured residuals is wider than white ones would make it. Few blocks tell no variance: then nothing.
+void add_blocks(QuadraticForm& form, const std::vector<ScoreBlock>& blocks, const std::vector<int>& base);
+
 /// By how much coloured residuals, or a size that changes from block to block, inflate what these directions
 /// gain: variance of their block scores, less the best common size, over what white residuals would give; 1
 /// or more.

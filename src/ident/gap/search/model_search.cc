@@ -50,6 +50,9 @@ class Search {
       if (further(s_.now, s_.now.have, c).passes()) s_.out.ran_away.push_back(described(s_.candidate(c)));
     s_.out.sets = weighed_sets(s_.now);
     s_.out.alone = s_.steps_here();
+    if (const std::vector<std::string>& left_out = s_.options.exclude; !left_out.empty())
+      s_.out.beside_left_out =
+          beside_left_out(standing_at(s_.record, s_.vehicle, {}, s_.now.model), left_out);
     s_.fit.tolerance_of_misfit = 0, s_.fit.tolerance = kUnseen;
     s_.now.model.fit.smoother->set_steps(Steps::fine);
     finish_fit(s_.now.model.fit, *s_.now.model.theta, s_.fit);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ident/gap/search/left_out.h"
 #include "ident/gap/search/weigh_sets.h"
 #include "ident/gap/statistics/by_channel.h"
 #include "ident/gap/statistics/level_thrust.h"
@@ -25,8 +26,9 @@ struct SearchResult {
   std::vector<SearchStep> steps;
   std::vector<SearchStep>
       alone;  ///< what each cause found gains beside the others under the noise they leave
-  std::vector<std::vector<Asked>> asked;  ///< of each cause found by the channels, one by one
-  LevelThrust thrust;                     ///< what the battery does to it, whatever else is in the model
+  std::vector<std::vector<Asked>> asked;       ///< of each cause found by the channels, one by one
+  std::vector<BesideLeftOut> beside_left_out;  ///< empty where nothing was left out
+  LevelThrust thrust;                          ///< what the battery does to it, whatever else is in the model
   std::vector<std::string>
       ran_away;  ///< causes that gained much and with which the full model cannot be fitted
 

@@ -10,8 +10,6 @@
 namespace ident {
 namespace {
 
-// Log prior odds against each further cause.
-constexpr double kOddsAgainst = 7.0;
 constexpr double kNone = -1e300;
 
 // `stretch` is common to all sets that are compared: a rival must not win because its own residual happens to

@@ -5,6 +5,9 @@
 
 namespace ident {
 
+/// Log prior odds against each further cause.
+inline constexpr double kOddsAgainst = 7.0;
+
 /// Weight of a set of causes.
 struct WeighedSet {
   std::vector<int> members;

@@ -120,8 +120,8 @@ NameEvidence evidence_of(const std::string& name, const NamesSeen& seen) {
     out.share = std::clamp(share->share.ci95[1], 0.0, 1.0);
   else
     out.share = 1;
-  out.untried = std::ranges::any_of(search.problem.excluded,
-                                    [&](const std::string& other) { return look_alike(name, other); });
+  const auto beside = std::ranges::find(search.beside_left_out, name, &BesideLeftOut::name);
+  if (beside != search.beside_left_out.end()) out.beside_left_out = beside->probability;
   out.seen = traits_of(name).of_battery && search.thrust.plain();
   return out;
 }
@@ -137,7 +137,7 @@ double probability_right(const NameEvidence& x) {
                       kCloses * (x.closes - 0.5) + kBeside * std::max(x.beside - 1, 0.0) +
                       kBeyond * x.beyond + (x.told_from_none ? 0 : kNone);
   const double p = 1 / (1 + std::exp(-odds));
-  return x.untried ? 0.5 * p : p;  // of two that look alike either may be it
+  return p * x.beside_left_out;
 }
 
 }  // namespace ident

@@ -23,8 +23,8 @@ struct NameEvidence {
   double beside = 0;  ///< causes of the vehicle found beside it
   double beyond = 0;  ///< logarithm of its size over the limit of physics, 0 within
   bool told_from_none = true;
-  bool untried = false;  ///< a look-alike was excluded from the causes tried
-  bool seen = false;     ///< thrust over voltage shows it without any model
+  double beside_left_out = 1;  ///< probability that it is there beside causes that were left out as asked
+  bool seen = false;           ///< thrust over voltage shows it without any model
 };
 
 struct NamesSeen {

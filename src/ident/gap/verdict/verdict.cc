@@ -48,7 +48,7 @@ std::vector<JudgedCause> causes_of(const Seen& seen) {
                       seen.search.probability_of(name), 0, share_of(name, seen.shares)};
     cause.right = probability_right(cause.evidence);
     const bool beyond_physics = is_beyond_physics(name, seen.fitted);
-    if (beyond_physics) cause.right = std::max(cause.right, kNamed);
+    if (beyond_physics) cause.right = std::max(cause.right, kNamed * cause.evidence.beside_left_out);
     // Sets are compared near the fit; so far away they do not reach.
     if (cause.evidence.seen || beyond_physics) cause.in_sets = 1;
     out.push_back(std::move(cause));
@@ -104,6 +104,7 @@ Judged judge(const Seen& seen) {
   // In the place of those named: sets with others, about as probable. What the sets did not have to show (the
   // battery in the thrust) has nothing in its place.
   if (!by_sets.empty()) out.confused_with = in_their_place(by_sets, seen.search, seen.fitted);
+  std::erase_if(out.confused_with, [&](const std::string& name) { return is_among(name, out.effects); });
   // A cause that was tried beside them and closes nothing closes nothing in their place either.
   std::erase_if(out.confused_with,
                 [&](const std::string& name) { return is_among(name, found) && !is_among(name, closing); });

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "ident/core/format_number.h"
 #include "ident/effects/all_parameters.h"
@@ -73,6 +75,26 @@ Table horizon_table(const Json& gap) {
   return table;
 }
 
+// The same in the units that a pilot feels, with what else moves as measured.
+Table motion_table(const Json& gap) {
+  Table table{
+      .title =
+          "Velocity with attitude and rates as measured, rates with velocity as measured, attitude open loop",
+      .columns = {"predicted", "horizon [s]", "as stated", "with what was found", "noise floor", "unit"}};
+  constexpr std::array kRows{std::array{"forces", "velocity"}, std::array{"moments", "rates"},
+                             std::array{"open_loop", "attitude"}};
+  for (const auto& [key, predicted_by] : kRows) {
+    if (!gap.contains(key) || !gap[key].is_object()) continue;
+    std::string name = predicted_by;
+    for (const Json& h : gap[key]["horizons"]) {
+      if (!predicted(h)) continue;
+      table.rows.push_back({std::exchange(name, ""), number_text(h["seconds"]), number_text(h["before"]),
+                            number_text(h["after"]), number_text(h["noise_floor"], 2), gap[key]["unit"]});
+    }
+  }
+  return table;
+}
+
 // Each cause named: is it there, and what does it close; and what is left.
 Table share_table(const Json& found) {
   Table table{.title = "What closes the gap",
@@ -102,6 +124,7 @@ Section how_section(const Json& found, const std::string& causes) {
                   .plots = {waterfall_plot(found, causes)}};
   if (Table shares = share_table(found); !shares.rows.empty())
     section.tables.insert(section.tables.begin(), std::move(shares));
+  if (Table felt = motion_table(found["gap"]); !felt.rows.empty()) section.tables.push_back(std::move(felt));
   if (Plot shares = shares_plot(found); !shares.series.empty())
     section.plots.insert(section.plots.begin(), std::move(shares));
   return section;

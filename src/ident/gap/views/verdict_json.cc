@@ -52,7 +52,7 @@ Json why(const JudgedCause& cause) {
           {"beside", x.beside},
           {"beyond", x.beyond},
           {"told_from_none", x.told_from_none},
-          {"look_alike_untried", x.untried},
+          {"beside_left_out", x.beside_left_out},
           {"seen", x.seen}};
 }
 

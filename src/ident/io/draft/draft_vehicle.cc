@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/core/format_number.h"
 #include "ident/io/draft/assumed_constants.h"
 #include "ident/io/draft/betaflight_geometry.h"
 #include "ident/io/draft/frame_geometry.h"
@@ -153,7 +154,7 @@ VehicleDraft draft_vehicle(std::span<const LogStreams> logs) {
     draft.yaml += fmt::format(
         "# FILL IN: positions are for an arm of {} m, which is ASSUMED; scale them to yours (hub to "
         "centre).\n",
-        arm);
+        format_number(arm, 3));
     draft.fill_in.emplace_back("positions of the rotors");
   }
   const CarriedWeight carried = carried_weight(log, {.rotors = geometry.rotors, .command = command_of(log)});
