@@ -62,7 +62,8 @@ def refined(name, result, error):
     value = {k: p["value"] for k, p in result["parameters"].items()}
     horizons = " ".join(f"{h['before']:.3g} → {h['after']:.3g}," for h in result.get("held_out") or
                         result["fit"].get("held_out", [])).rstrip(",")
-    cells = [entry(result, *shown) for shown in SHOWN] + [f"{2e3 * value['zeta_m'] / value['omega_m']:.0f}"]
+    lag = f"{2e3 * value['zeta_m'] / value['omega_m']:.0f}" if "zeta_m" in value else ""
+    cells = [entry(result, *shown) for shown in SHOWN] + [lag]
     return f"| {name} | " + " | ".join(cells) + f" | {horizons} | {codes(result)} |"
 
 
