@@ -140,7 +140,7 @@ TEST(Ladder, InertiaBearsWhatIsNotKnownOfTheMotors) {
   const RungConstant right = found_Jxx(1.0, 1e-6), off = found_Jxx(1 + share, 1e-6),
                      open = found_Jxx(1.0, share);
   const double moved = std::abs(off.value - right.value);  // by one deviation of the lag
-  ASSERT_GT(moved, 0.7 * right.std);  // or this test could not fail
+  ASSERT_GT(moved, 0.7 * right.std);                       // or this test could not fail
   EXPECT_NEAR(open.std, std::hypot(right.std, moved), 0.1 * open.std);
 }
 
