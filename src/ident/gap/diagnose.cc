@@ -322,7 +322,10 @@ Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, c
   } catch (const DataError& error) {
     why = error.what();
   }
-  std::optional<WindowDiagnosis> windows = diagnose_windows(vehicle, logs, options, entry, result);
+  // Logs that cannot be trusted tell nothing that way either, and hover tells no cause.
+  const bool barred = !disqualified(entry.tested).empty() || is_hover(entry.tested);
+  std::optional<WindowDiagnosis> windows;
+  if (!barred) windows = diagnose_windows(vehicle, logs, options, entry, result);
   if (!windows || (whole && !stands_against(*windows, entry.record, whole->trained, whole->verdict))) {
     if (!whole) throw DataError(why);
     return *std::move(whole);
