@@ -35,6 +35,7 @@
 #include "ident/gap/evidence/held_out_gap.h"
 #include "ident/gap/evidence/shares.h"
 #include "ident/gap/search/model_search.h"
+#include "ident/gap/stands_against.h"
 #include "ident/gap/statistics/generic_rival.h"
 #include "ident/gap/statistics/residual_wrench.h"
 #include "ident/gap/verdict/input_smoothing.h"

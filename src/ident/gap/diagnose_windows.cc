@@ -12,8 +12,6 @@
 #include "ident/flight/checks/gusts_expected.h"
 #include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fitted_parameters.h"
-#include "ident/flight/ladder/held_out_errors.h"
-#include "ident/flight/ladder/paired_comparison.h"
 #include "ident/flight/record/excerpts.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/motion_errors.h"
@@ -254,22 +252,6 @@ GapClosed closed_of(const Json& gap) {
   return out;
 }
 
-// Whether errors are worse than those of `better`, at any horizon, beyond chance, and by a material part of
-// what that closes of the errors `without` causes.
-bool worse(const std::vector<WindowErrors>& errors, const std::vector<WindowErrors>& better,
-           const std::vector<WindowErrors>& without) {
-  constexpr double kByChance = 0.05;  // over all horizons
-  for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
-    const auto square = [&](const std::vector<WindowErrors>& of) {
-      return std::pow(error_of(of, Metric::velocity, h), 2);
-    };
-    if (square(errors) - square(better) > kMaterial * std::max(square(without) - square(better), 0.0) &&
-        worse_beyond_chance(errors, better, Metric::velocity, h, kByChance / kLadderHorizons.size()))
-      return true;
-  }
-  return false;
-}
-
 // Constants of a model by the first part of the flight.
 std::vector<double> trained_by_part(const FlightRecord& part, FitTo what, const Vehicle& vehicle,
                                     const std::vector<std::string>& exclude, const std::vector<double>& p,
@@ -350,25 +332,6 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& vehicle, std::spa
   out.adopted = adopted_of(vehicle, forces.get(), moments.get());
   out.verdict = std::move(verdict);
   return out;
-}
-
-bool stands_against(const WindowDiagnosis& windows, const FlightRecord& record,
-                    const std::vector<double>& whole, const Judged& verdict) {
-  const FlightRecord rest = held_out_of(record, kTrainingShare);
-  const MeasuredMotion motion = measured_motion(rest);
-  if (!motion.forces || motion.arcs.empty()) return false;
-  if (!std::ranges::all_of(whole, [](double x) { return std::isfinite(x); })) return true;
-  const auto errors = [&](const std::vector<double>& p) { return held_out_errors(motion, p); };
-  const std::vector<WindowErrors> of_whole = errors(whole), of_windows = errors(windows.trained),
-                                  without = errors(windows.without_causes);
-  const std::vector<std::string>& others = verdict.effects;
-  if (std::ranges::all_of(windows.of_forces, [&](const std::string& name) {
-        return std::ranges::find(others, name) != others.end();
-      }))
-    return false;
-  if (worse(of_whole, of_windows, without)) return true;
-  const bool unsure = verdict.status == "ambiguous" || verdict.status == "unknown";
-  return unsure && !worse(of_windows, of_whole, without);
 }
 
 }  // namespace ident

@@ -26,11 +26,4 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& vehicle, std::spa
                                                 const GapOptions& options, const FlightEntry& entry,
                                                 const Result& begun);
 
-/// Whether that diagnosis stands against one by a model of the whole flight (constants by the first part of
-/// the flight), by how both predict velocity on the rest, with attitude and rates as measured. It names a
-/// cause that the other does not, and the other predicts worse beyond chance by a material part of the gap;
-/// or no better, and is not sure.
-bool stands_against(const WindowDiagnosis& windows, const FlightRecord& record,
-                    const std::vector<double>& whole, const Judged& verdict);
-
 }  // namespace ident

@@ -34,23 +34,12 @@ std::vector<Player> players_of(const SearchResult& search) {
   return out;
 }
 
-// Sums over the windows of a block: what each set misses, and the floor.
-struct Block {
-  std::vector<double> errors;
-  double floor = 0, windows = 0;
-};
-
-struct Sums {
-  std::vector<double> errors;
-  double floor = 0, windows = 0;
-};
-
-void add(Sums& sums, const Block& block) {
+void add(BlockErrors& sums, const BlockErrors& block) {
   for (std::size_t s = 0; s < sums.errors.size(); ++s) sums.errors[s] += block.errors[s];
   sums.floor += block.floor, sums.windows += block.windows;
 }
 
-std::vector<double> shares_of(const Sums& sums) {
+std::vector<double> shares_of(const BlockErrors& sums) {
   const double gap = sums.errors[0] - sums.floor;
   if (!(sums.errors[0] > kNoGap * sums.floor)) return {};
   std::vector<double> shares = shapley_values(sums.errors);
@@ -86,6 +75,32 @@ std::vector<double> shapley_values(const std::vector<double>& errors) {
   return out;
 }
 
+GapShares share_out(const std::vector<std::string>& names, const std::vector<BlockErrors>& blocks) {
+  GapShares out;
+  const std::size_t sets = std::size_t{1} << names.size();
+  BlockErrors sums{std::vector<double>(sets), 0, 0};
+  for (const BlockErrors& block : blocks) add(sums, block);
+  if (!(sums.windows > 0)) return out;
+  out.without_causes = std::sqrt(sums.errors[0] / sums.windows);
+  const std::vector<double> shares = shares_of(sums);
+  std::vector<std::vector<double>> draws(names.size() + 1);
+  std::mt19937_64 random(22);
+  // One block has no other to differ from: its shares have no interval.
+  const int draws_of = shares.empty() || blocks.size() < 2 ? 0 : kDraws;
+  for (int d = 0; d < draws_of; ++d) {
+    BlockErrors drawn{std::vector<double>(sets), 0, 0};
+    for (std::size_t b = 0; b < blocks.size(); ++b) add(drawn, blocks[random() % blocks.size()]);
+    const std::vector<double> one = shares_of(drawn);
+    for (std::size_t c = 0; c < one.size(); ++c) draws[c].push_back(one[c]);
+  }
+  const auto share = [&](std::size_t c) {
+    return shares.empty() ? Share{} : Share{shares[c], interval_of(draws[c])};
+  };
+  for (std::size_t c = 0; c < names.size(); ++c) out.causes.push_back({names[c], share(c)});
+  out.remaining = share(names.size());
+  return out;
+}
+
 GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
   const GapClosed& judged = all.judged;
   std::vector<Player> players = players_of(search);
@@ -102,10 +117,10 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
   const std::vector<PredictionWindow>& after = all.after[at];
   windows.horizons = {all.windows.horizons[at]};
   const unsigned sets = 1U << players.size();
-  std::map<std::pair<int, int>, Block> blocks;
+  std::map<std::pair<int, int>, BlockErrors> blocks;
   const auto enter = [&](unsigned set, const std::vector<PredictionWindow>& predicted, bool first) {
     for (const PredictionWindow& w : predicted) {
-      Block& block = blocks[{w.log, static_cast<int>(w.t / kBlock)}];
+      BlockErrors& block = blocks[{w.log, static_cast<int>(w.t / kBlock)}];
       block.errors.resize(sets);
       block.errors[set] += w.error2();
       if (first) block.floor += w.floor2(), block.windows += 1;
@@ -121,29 +136,11 @@ GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
                           search.form.noise, windows)[0],
           false);
   }
-  GapShares out;
-  Sums sums{std::vector<double>(sets), 0, 0};
-  std::vector<Block> listed;
-  for (auto& [place, block] : blocks) add(sums, block), listed.push_back(std::move(block));
-  if (!(sums.windows > 0)) return out;
-  out.without_causes = std::sqrt(sums.errors[0] / sums.windows);
-  const std::vector<double> shares = shares_of(sums);
-  std::vector<std::vector<double>> draws(players.size() + 1);
-  std::mt19937_64 random(22);
-  // One block has no other to differ from: its shares have no interval.
-  const int draws_of = shares.empty() || listed.size() < 2 ? 0 : kDraws;
-  for (int d = 0; d < draws_of; ++d) {
-    Sums drawn{std::vector<double>(sets), 0, 0};
-    for (std::size_t b = 0; b < listed.size(); ++b) add(drawn, listed[random() % listed.size()]);
-    const std::vector<double> one = shares_of(drawn);
-    for (std::size_t c = 0; c < one.size(); ++c) draws[c].push_back(one[c]);
-  }
-  const auto share = [&](std::size_t c) {
-    return shares.empty() ? Share{} : Share{shares[c], interval_of(draws[c])};
-  };
-  for (std::size_t c = 0; c < players.size(); ++c) out.causes.push_back({players[c].name, share(c)});
-  out.remaining = share(players.size());
-  return out;
+  std::vector<std::string> names;
+  for (const Player& player : players) names.push_back(player.name);
+  std::vector<BlockErrors> listed;
+  for (auto& [place, block] : blocks) listed.push_back(std::move(block));
+  return share_out(names, listed);
 }
 
 }  // namespace ident

@@ -29,6 +29,16 @@ struct GapShares {
   Share remaining;
 };
 
+/// Sums over the windows of a block of flight: the square of what each of 2^k sets of k causes misses, and of
+/// what a perfect model would.
+struct BlockErrors {
+  std::vector<double> errors;
+  double floor = 0, windows = 0;
+};
+
+/// Shares of the causes `names`, with intervals by drawing blocks.
+GapShares share_out(const std::vector<std::string>& names, const std::vector<BlockErrors>& blocks);
+
 /// Over the held-out windows of the judged horizon.
 GapShares gap_shares(const HeldOutGap& all, const SearchResult& search);
 

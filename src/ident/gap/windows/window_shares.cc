@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <random>
 
 namespace ident {
 namespace {
@@ -16,8 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kDrawn = 4.0;  // s, as in shares of whole models
-constexpr int kDraws = 400;
-constexpr double kNoGap = 1.02;  // times the square of the floor
 
 struct Quadratic {
   MatrixXd A;
@@ -86,64 +82,6 @@ class SetFit {
   VectorXd held_;
 };
 
-// Of some blocks: what every set misses.
-std::vector<double> shares_of(const std::vector<double>& errors, double floor) {
-  const double gap = errors[0] - floor;
-  if (!(errors[0] > kNoGap * floor)) return {};
-  std::vector<double> shares = shapley_values(errors);
-  for (double& s : shares) s /= gap;
-  const double closed = std::accumulate(shares.begin(), shares.end(), 0.0);
-  if (closed > 1)
-    for (double& s : shares) s /= closed;
-  shares.push_back(std::max(1 - closed, 0.0));
-  return shares;
-}
-
-std::array<double, 2> interval_of(std::vector<double> draws) {
-  if (draws.size() < kDraws / 2) return {kNaN, kNaN};
-  std::ranges::sort(draws);
-  return {draws[draws.size() / 40], draws[draws.size() - 1 - draws.size() / 40]};
-}
-
-WindowShares shared_out(const std::vector<std::string>& names, const std::vector<std::vector<double>>& errors,
-                        const std::vector<double>& windows, double floor_each) {
-  const std::size_t sets = errors.front().size();
-  const auto sum = [&](const std::vector<std::size_t>& blocks, double& floor) {
-    std::vector<double> out(sets, 0.0);
-    floor = 0;
-    for (const std::size_t b : blocks) {
-      for (std::size_t s = 0; s < sets; ++s) out[s] += errors[b][s];
-      floor += windows[b] * floor_each;
-    }
-    return out;
-  };
-  std::vector<std::size_t> all(errors.size());
-  std::iota(all.begin(), all.end(), 0U);
-  double floor = 0;
-  const std::vector<double> total = sum(all, floor);
-  const double count = std::accumulate(windows.begin(), windows.end(), 0.0);
-  WindowShares out;
-  const auto rms = [&](double x) { return std::sqrt(std::max(x, 0.0) / std::max(count, 1.0)); };
-  out.before = rms(total.front()), out.after = rms(total.back()), out.floor = rms(floor);
-  out.shares.without_causes = out.before / std::max(out.floor, 1e-12);
-  const std::vector<double> shares = shares_of(total, floor);
-  std::vector<std::vector<double>> draws(names.size() + 1);
-  std::mt19937_64 random(22);
-  for (int d = 0; d < kDraws && !shares.empty() && errors.size() > 1; ++d) {
-    std::vector<std::size_t> drawn(all.size());
-    for (std::size_t& b : drawn) b = random() % all.size();
-    double floor_drawn = 0;
-    const std::vector<double> one = shares_of(sum(drawn, floor_drawn), floor_drawn);
-    for (std::size_t c = 0; c < one.size(); ++c) draws[c].push_back(one[c]);
-  }
-  const auto share = [&](std::size_t c) {
-    return shares.empty() ? Share{} : Share{shares[c], interval_of(draws[c])};
-  };
-  for (std::size_t c = 0; c < names.size(); ++c) out.shares.causes.push_back({names[c], share(c)});
-  out.shares.remaining = share(names.size());
-  return out;
-}
-
 }  // namespace
 
 WindowShares window_shares(const WindowModel& model, const WindowSearch& search) {
@@ -157,7 +95,10 @@ WindowShares window_shares(const WindowModel& model, const WindowSearch& search)
   }
   const std::vector<Block> blocks = blocks_of(model, search.best);
   const unsigned sets = 1U << players.size();
-  std::vector<std::vector<double>> errors(blocks.size(), std::vector<double>(sets));
+  const double floor = 3 * sensor_variance(model.motion(), model.what());  // of a window
+  std::vector<BlockErrors> errors;
+  for (const Block& b : blocks)
+    errors.push_back({std::vector<double>(sets), b.felt.windows * floor, b.felt.windows});
   std::vector<SetFit> fits;
   for (unsigned set = 0; set < sets; ++set) fits.emplace_back(at, players, set);
   MatrixXd H = at.form.prior.information();
@@ -165,10 +106,15 @@ WindowShares window_shares(const WindowModel& model, const WindowSearch& search)
   for (const Block& b : blocks) H += b.H, g += b.g;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (unsigned set = 0; set < sets; ++set)
-      errors[b][set] = blocks[b].felt.at(fits[set].step(H - blocks[b].H, g - blocks[b].g));
-  std::vector<double> windows;
-  for (const Block& b : blocks) windows.push_back(b.felt.windows);
-  return shared_out(names, errors, windows, 3 * sensor_variance(model.motion(), model.what()));
+      errors[b].errors[set] = blocks[b].felt.at(fits[set].step(H - blocks[b].H, g - blocks[b].g));
+  WindowShares out{.shares = share_out(names, errors), .floor = std::sqrt(floor)};
+  double before = 0, after = 0, windows = 0;
+  for (const BlockErrors& b : errors)
+    before += b.errors.front(), after += b.errors.back(), windows += b.windows;
+  out.before = std::sqrt(std::max(before, 0.0) / std::max(windows, 1.0));
+  out.after = std::sqrt(std::max(after, 0.0) / std::max(windows, 1.0));
+  out.shares.without_causes = out.before / std::max(out.floor, 1e-12);
+  return out;
 }
 
 }  // namespace ident
