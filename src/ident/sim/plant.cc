@@ -67,6 +67,8 @@ const Vehicle& Plant::vehicle() const { return model_->vehicle; }
 double Plant::constant(param::Index index) const { return model_->p[static_cast<std::size_t>(index)]; }
 double Plant::command_delay() const { return model_->command_delay; }
 double Plant::sensor_delay() const { return model_->flight->sensor_delay(); }
+double Plant::mass() const { return model_->flight->body().mass(); }
+Vec3<double> Plant::centre_of_gravity() const { return model_->flight->body().centre_of_gravity(); }
 
 BodyRate<double> Plant::steady_rate(const BodyState<double>& state, std::span<const double> Omega) const {
   std::vector<MotorState<double>> motors;
@@ -88,6 +90,10 @@ void Plant::start(double t, const BodyState<double>& state, std::span<const doub
 
 void Plant::command(double t, std::span<const double> delta) {
   for (std::size_t n = 0; n < delta.size(); ++n) model_->inputs.delta[n].append(t, delta[n]);
+}
+
+void Plant::recall(const std::vector<double>& t, const std::vector<std::vector<double>>& delta) {
+  for (std::size_t n = 0; n < delta.size(); ++n) model_->inputs.delta[n] = HeldCommand(t, delta[n]);
 }
 
 void Plant::voltage(double t, double ratio) {

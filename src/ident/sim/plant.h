@@ -27,6 +27,10 @@ class Plant {
   double command_delay() const;
   /// Delay of rates and attitude, s.
   double sensor_delay() const;
+  /// Mass with all effects, kg.
+  double mass() const;
+  /// Centre of gravity from the origin with all effects, m.
+  Vec3<double> centre_of_gravity() const;
 
   /// Rates of change at any state with rotors that turn steadily, rad/s.
   BodyRate<double> steady_rate(const BodyState<double>& state, std::span<const double> Omega) const;
@@ -36,6 +40,8 @@ class Plant {
              std::span<const double> delta);
   /// Command from time t on, not before the present.
   void command(double t, std::span<const double> delta);
+  /// Puts a history of commands, [rotor][time], in the place of what was commanded so far.
+  void recall(const std::vector<double>& t, const std::vector<std::vector<double>>& delta);
   /// Battery voltage over that at which km holds, from the last time given to t linear.
   void voltage(double t, double ratio);
   /// Force, N, and moment about the centre of gravity, N m, from outside, until changed.

@@ -4,23 +4,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
 
 namespace ident {
 namespace {
 
-/// Degrees from the nose, clockwise from above; spin, +1 counter-clockwise.
-struct Arm {
-  double degrees;
-  int spin;
-};
 constexpr int kCcw = 1, kCw = -1;
 
-/// [ArduPilot, AP_MotorsMatrix.cpp], by FRAME_CLASS and FRAME_TYPE.
-const std::map<std::pair<int, int>, std::vector<Arm>>& frames() {
-  static const std::map<std::pair<int, int>, std::vector<Arm>> table = {
+double rounded(double value) { return std::round(value * 1e5) / 1e5; }  // m; parameters are floats
+
+}  // namespace
+
+const std::map<std::pair<int, int>, std::vector<FrameArm>>& ardupilot_frames() {
+  static const std::map<std::pair<int, int>, std::vector<FrameArm>> table = {
       {{1, 0}, {{90, kCcw}, {-90, kCcw}, {0, kCw}, {180, kCw}}},      // quad, plus
       {{1, 1}, {{45, kCcw}, {-135, kCcw}, {-45, kCw}, {135, kCw}}},   // quad, X
       {{1, 3}, {{45, kCw}, {-135, kCw}, {-45, kCcw}, {135, kCcw}}},   // quad, H
@@ -49,10 +45,6 @@ const std::map<std::pair<int, int>, std::vector<Arm>>& frames() {
   return table;
 }
 
-double rounded(double value) { return std::round(value * 1e5) / 1e5; }  // m; parameters are floats
-
-}  // namespace
-
 std::optional<FrameGeometry> px4_geometry(const LogStreams& log) {
   const int count = log.whole_parameter("CA_ROTOR_COUNT").value_or(0);
   constexpr int kMost = 12;  // CA_ROTOR11 is the last one
@@ -76,10 +68,10 @@ std::optional<FrameGeometry> ardupilot_geometry(const LogStreams& log) {
   const auto frame_class = log.whole_parameter("FRAME_CLASS"), frame_type = log.whole_parameter("FRAME_TYPE");
   const int kind = frame_class.value_or(1);  // FRAME, before 3.5, was that of a quadrotor's build
   const int type = frame_type.value_or(log.whole_parameter("FRAME").value_or(-1));
-  const auto found = frames().find({kind, type});
-  if (found == frames().end()) return std::nullopt;
+  const auto found = ardupilot_frames().find({kind, type});
+  if (found == ardupilot_frames().end()) return std::nullopt;
   FrameGeometry geometry{.spin_is_known = true};
-  for (const Arm& arm : found->second) {
+  for (const FrameArm& arm : found->second) {
     const double angle = arm.degrees * std::numbers::pi / 180.0;
     geometry.rotors.push_back(
         {.r_B = {rounded(kAssumedArm * std::cos(angle)), rounded(kAssumedArm * std::sin(angle)), 0},

@@ -1,8 +1,10 @@
 // Where motors sit and how they turn, as the parameters of an autopilot say.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ident/data/log_streams.h"
@@ -19,6 +21,16 @@ struct FrameGeometry {
 };
 
 constexpr double kAssumedArm = 0.25;  ///< m, of a frame of 500 mm, where a log states directions alone
+
+/// Where a motor sits seen from above, degrees from the nose, clockwise; its spin, +1 counter-clockwise.
+struct FrameArm {
+  double degrees;
+  int spin;
+};
+
+/// ArduPilot's frames that are known here, by FRAME_CLASS and FRAME_TYPE, motors in its order
+/// [AP_MotorsMatrix.cpp].
+const std::map<std::pair<int, int>, std::vector<FrameArm>>& ardupilot_frames();
 
 /// PX4 (1.13 and later), from CA_ROTOR*. Throws DataError where its rotors tilt or where it is no multirotor.
 std::optional<FrameGeometry> px4_geometry(const LogStreams& log);
