@@ -1,15 +1,11 @@
 // `ident export`: a vehicle as a simulator's file, into the user's own one, or as samples.
 #include <fmt/format.h>
 
-#include "command.h"
-#include "ident/io/campaign/campaign.h"
+#include "chosen_vehicle.h"
 #include "ident/io/file/read_bytes.h"
 #include "ident/io/simulators/patch.h"
 #include "ident/io/simulators/samples.h"
 #include "ident/io/simulators/simulators.h"
-#include "ident/io/vehicle/vehicle_file.h"
-#include "ident/io/vehicle/vehicle_read.h"
-#include "ident/io/vehicle/vehicle_write.h"
 
 namespace ident::app {
 namespace {
@@ -22,27 +18,11 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
-Vehicle exported_vehicle(const Options& options, Context& context) {
-  Vehicle vehicle;
-  if (!options.vehicle.empty()) {
-    vehicle = read_vehicle(options.vehicle);
-    context.used.push_back(options.vehicle);
-  } else if (const std::optional<Campaign> campaign = find_campaign()) {
-    vehicle = campaign_vehicle(*campaign);
-    context.used.insert(context.used.end(), {campaign->vehicle, campaign->parameters});
-  } else {
-    throw UsageError("no vehicle: name one with --vehicle FILE, or run where there is an ident.yaml");
-  }
-  if (options.params.empty()) return vehicle;
-  context.used.push_back(options.params);
-  return with_parameters(vehicle, read_vehicle(options.params));
-}
-
 Outcome run(const Options& options, Context& context) {
   const SimulatorFormat& format = find_simulator(options.target);
   if (options.samples > 0 && !options.into.empty())
     throw UsageError("--samples writes a table, --into a single file: give one of them");
-  const Vehicle vehicle = exported_vehicle(options, context);
+  const Vehicle vehicle = chosen_vehicle(options.vehicle, options.params, context);
   Result result;
   result.command = "export";
   result.inputs = {vehicle.file};
@@ -85,10 +65,7 @@ Action export_command(CLI::App& cli) {
   for (const SimulatorFormat& format : simulator_formats())
     targets += (targets.empty() ? "" : " ") + std::string(format.target);
   cli.add_option("TARGET", options->target, targets)->required();
-  cli.add_option("--vehicle", options->vehicle, "vehicle file, or a simulator's; none: that of ident.yaml")
-      ->type_name("FILE");
-  cli.add_option("--params", options->params, "parameter file, laid over the vehicle file")
-      ->type_name("FILE");
+  add_vehicle_options(cli, options->vehicle, options->params);
   cli.add_option("-o,--output", options->output, "file to write; none: on standard output")
       ->type_name("FILE");
   cli.add_option("--into", options->into, "your own file: only its values change; without -o it is replaced")

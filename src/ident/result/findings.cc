@@ -28,9 +28,10 @@ constexpr std::array kStageTitles = {"Reading a flight log",
                                      "Flight: self-test",
                                      "Flight: fit",
                                      "Flight: judgement of the fit",
-                                     "Gap diagnosis"};
+                                     "Gap diagnosis",
+                                     "Vehicle served to an autopilot"};
 
-static_assert(kStageTitles.size() == static_cast<std::size_t>(FindingStage::gap) + 1);
+static_assert(kStageTitles.size() == static_cast<std::size_t>(FindingStage::fly) + 1);
 
 }  // namespace
 

@@ -21,7 +21,8 @@ enum class FindingStage {
   self_test,
   fit,
   judgement,
-  gap
+  gap,
+  fly
 };
 
 /// A code in three texts of whole sentences.
