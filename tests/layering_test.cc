@@ -201,6 +201,19 @@ TEST(Layering, EveryEffectIsOneFileAndOneLine) {
   EXPECT_EQ(listed, written);
 }
 
+TEST(Layering, EveryAutopilotIsOneFileAndOneLine) {
+  std::set<std::string> listed, written;
+  for (const std::string& name :
+       matches(content(kSource / "src/ident/fly/autopilots.def"), R"(\nIDENT_AUTOPILOT\((\w+)\))"))
+    listed.insert(name);
+  for (const fs::path& file : files_below(kSource / "src/ident/fly", {".cc"}))
+    for (const std::string& name : matches(content(file), R"(\nAutopilotInfo (\w+)_autopilot\()")) {
+      written.insert(name);
+      EXPECT_EQ(file.stem().string(), name);
+    }
+  EXPECT_EQ(listed, written);
+}
+
 TEST(Layering, EveryLogFormatIsOneHeaderAndOneLine) {
   std::set<std::string> listed, written;
   for (const std::string& header : matches(content(kSource / "src/ident/io/log_formats/log_formats.def"),
