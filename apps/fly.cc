@@ -77,7 +77,8 @@ Result description(const AutopilotInfo& info, const Vehicle& vehicle, const Serv
     refused += count;
     kinds += fmt::format("{}{} x {}", kinds.empty() ? "" : "; ", count, wrong);
   }
-  const Vec3<double> moved = served.last.x_W - served.last.start_W;
+  Vec3<double> moved = served.last.x_W - served.last.start_W;
+  for (int i = 0; i < 3; ++i) moved[i] = std::round(1e2 * moved[i]) / 1e2 + 0.0;  // cm, no -0
   result.extra["autopilot"] = info.name;
   result.extra["seconds"] = served.seconds;
   result.extra["frames"] = served.frames;
@@ -92,7 +93,7 @@ Result description(const AutopilotInfo& info, const Vehicle& vehicle, const Serv
           ? fmt::format("No command of {} arrived.", info.name)
           : fmt::format(
                 "{:.2f} s flown with {} in {} frames; it ended {:.2f} m north, {:.2f} m east, {:.2f} m up.",
-                served.seconds, info.name, served.frames, moved[0], moved[1], -moved[2]);
+                served.seconds, info.name, served.frames, moved[0], moved[1], 0.0 - moved[2]);
   if (refused > 0)
     result.warn("datagrams_refused", fmt::format("{} datagrams are no commands: {}", refused, kinds));
   if (served.lost > 0)

@@ -110,7 +110,7 @@ class Betaflight : public Autopilot {
   /// FRD to NED as the build takes it.
   Vec4<double> attitude(const Vec4<double>& q_WB) const {
     if (build_ == Build::released) return q_WB;
-    const Vec4<double> q(q_WB[0], q_WB[1], -q_WB[2], -q_WB[3]);  // forward, left, up to north, west, up
+    Vec4<double> q(q_WB[0], q_WB[1], -q_WB[2], -q_WB[3]);  // forward, left, up to north, west, up
     if (build_ == Build::bridge) return q;
     // It turns about x by 180 degrees, then by 90 degrees to the left.
     const Vec4<double> right(kRootHalf, 0.0, 0.0, -kRootHalf);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 
 namespace ident {
 namespace {
@@ -24,7 +25,7 @@ int spin_felt(const Vehicle& vehicle, const Rotor& rotor) {
   const double kT = vehicle.value("kT"), kQ = vehicle.value("kQ");
   if (!(kT > 0) || !(kQ > 0)) return rotor.s;
   const Eigen::Vector3d a_B = axis_at(rotor, slant_angle(vehicle));
-  const double moment = rotor.r_B.cross(a_B)[2] - rotor.s * kQ / kT * a_B[2];
+  const double moment = cross(rotor.r_B, a_B)[2] - rotor.s * kQ / kT * a_B[2];
   return moment > 0 ? 1 : -1;
 }
 
