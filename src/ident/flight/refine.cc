@@ -35,6 +35,7 @@
 #include "ident/flight/prepare.h"
 #include "ident/flight/record/channel_units.h"
 #include "ident/flight/record/excerpts.h"
+#include "ident/flight/refine_along_motion.h"
 #include "ident/flight/refine_trim.h"
 #include "ident/views/chosen_rung.h"
 #include "ident/views/data_health.h"
@@ -150,7 +151,8 @@ Result refined_as_first_order(const Vehicle& vehicle, std::span<const FlightLog>
 
 // Whether what was fitted predicts other flight, beside the constants as stated. Frees the smoother of the
 // fit, the largest thing in memory.
-void validate(Result& result, const FlightRecord& record, const Theta& theta, FlightFit& fit, Shown shown) {
+void validate(Result& result, const FlightRecord& record, const Theta& theta, FlightFit& fit, Shown shown,
+              std::optional<LadderResult> ladder) {
   const FlightRecord held_out = held_out_of(record, kTrainingShare);
   FlightFit view = fit;
   view.u = fit_of_training(fit, record, theta, kTrainingShare);
@@ -163,8 +165,9 @@ void validate(Result& result, const FlightRecord& record, const Theta& theta, Fl
   result.fit["held_out"] = held_out_json(validation);
   result.sections.push_back(held_out_section(validation, held_out, theta, before, view, shown));
   if (validation.worse) doubt_where_worse(result, predicts_worse_text(validation));
-  const FullModel full{theta.p(view.u), theta.p(nearest_body(theta, fit))};
-  if (const auto ladder = climb_ladder(record, full)) settle_for_chosen(result, *ladder, *record.vehicle);
+  if (!ladder) return;
+  judge_full(*ladder, record, {theta.p(view.u), theta.p(nearest_body(theta, fit))});
+  settle_for_chosen(result, *ladder, *record.vehicle);
 }
 
 std::string verdict(const Result& result, double seconds) {
@@ -250,7 +253,8 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
                         const RefineOptions& options) {
   Result result;
   result.command = "flightlog";
-  auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);
+  FlightEntry entry = enter_flight(vehicle, logs, result);
+  auto& [p, record, tested, vibration] = entry;
   if (only_trim(record.signals)) {
     refine_trim(result, record, p, options.free);
     result.sections.push_back(data_health(record, logs, initial_noise(record), vibration));
@@ -258,6 +262,9 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
     return result;
   }
   require_turning(record.signals);
+  std::optional<LadderResult> ladder = ladder_of(record, options);
+  if (ladder && ends_along_motion(*ladder, entry, options))
+    return refined_along_motion(std::move(result), vehicle, logs, entry, *ladder, options.shown);
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
   if (!record.signals.commands) leave_out_motors(constants);
   const std::vector<FreeConstant> known = constants;
@@ -292,7 +299,8 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
   const SteadyPush push = steady_push(record, fit);
   judge(result, refined, push, vibration, tested);
   show(result, refined, push, vibration, options.shown);
-  if (options.validate && record.duration > 6) validate(result, record, theta, fit, options.shown);
+  if (options.validate && record.duration > kLeastJudged)
+    validate(result, record, theta, fit, options.shown, std::move(ladder));
   result.verdict = verdict(result, record.duration);
   if (const std::string wrong = disqualified(tested); !wrong.empty()) distrust(result, wrong);
   return result;

@@ -14,7 +14,7 @@
 #include "ident/flight/checks/log_self_test.h"
 #include "ident/flight/record/arcs.h"
 #include "ident/flight/record/flight_record.h"
-#include "ident/flight/refine_without_motor_cutoff.h"
+#include "ident/flight/refine_along_motion.h"
 
 namespace ident {
 namespace {
@@ -82,6 +82,11 @@ std::string contradicted_by_driven(const Result& all, const Result& driven) {
   return name;
 }
 
+void warn_not_driven(Result& result, const std::string& why) {
+  result.warn("not_driven", "Rows around commands of 0 are not used, because a motor that is off coasts: " +
+                                why + ". Keep every command above 0 in flight.");
+}
+
 }  // namespace
 
 std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
@@ -105,6 +110,11 @@ std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
 Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   const auto driven = without_undriven(vehicle, logs);
   if (!driven) return refine_as_logged(vehicle, logs, options);
+  // Nothing is estimated of motors along measured motion.
+  if (std::optional<Result> out = refined_along_motion(vehicle, driven->empty() ? logs : *driven, options)) {
+    if (!driven->empty()) warn_not_driven(*out, "forces along measured motion do without them");
+    return *std::move(out);
+  }
   // Both fits are of the same model: before validation, which may take a simpler one.
   RefineOptions only_fit = options;
   only_fit.validate = false;
@@ -134,8 +144,7 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
     with = fmt::format("with them {} would be {}", name, format_number(all->find(name)->value, 3));
   }
   Result out = whole(*result, *driven);
-  out.warn("not_driven", "Rows around commands of 0 are not used, because a motor that is off coasts: " +
-                             with + ". Keep every command above 0 in flight.");
+  warn_not_driven(out, with);
   return out;
 }
 

@@ -26,6 +26,7 @@
 #include "ident/flight/fit/input_sensitivity.h"
 #include "ident/flight/fit/physical_inertia.h"
 #include "ident/flight/fit/prediction.h"
+#include "ident/flight/ladder/ladder.h"
 #include "ident/flight/prepare.h"
 #include "ident/flight/refine_trim.h"
 #include "ident/gap/diagnose_trim.h"
@@ -283,14 +284,16 @@ Looked by_whole_models(const Vehicle& vehicle, std::span<const FlightLog> logs, 
   }
 }
 
-void warn_of_measured_motion(Result& result, const std::string& why) {
+void warn_of_measured_motion(Result& result, bool misses_turning, const std::string& why) {
+  const std::string reason =
+      misses_turning
+          ? "what was logged of the rotors predicts rates worse than no model at all, so no model of the "
+            "whole flight is fitted"
+      : why.empty()
+          ? "no model of the whole flight predicts velocity as well as forces along the measured motion do"
+          : "no model of the whole flight can be fitted (" + why + ")";
   result.warn("measured_motion",
-              why.empty()
-                  ? "no model of the whole flight predicts velocity as well as forces along the measured "
-                    "motion do: causes are looked for in forces and moments, attitude and rates as "
-                    "measured"
-                  : "no model of the whole flight can be fitted (" + why +
-                        "): causes are looked for in forces and moments, attitude and rates as measured");
+              reason + ": causes are looked for in forces and moments, attitude and rates as measured");
 }
 
 }  // namespace
@@ -316,22 +319,30 @@ Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, c
   }
   require_turning(record.signals);
   const FlightEntry entry{std::move(p), std::move(record), std::move(tested), std::move(vibration)};
+  // Logs that cannot be trusted tell nothing along measured motion either, and hover tells no cause.
+  const bool barred = !disqualified(entry.tested).empty() || is_hover(entry.tested);
+  const std::optional<LadderResult> ladder = barred ? std::nullopt : climb_ladder(entry.record);
+  const bool misses_turning = ladder && ladder->misses_turning;
+  const auto along_motion = [&] { return diagnose_windows(vehicle, logs, options, entry, result); };
+  std::optional<WindowDiagnosis> windows;
+  if (misses_turning) windows = along_motion();
   std::optional<Looked> whole;
   std::string why;
-  try {
-    whole = by_whole_models(vehicle, logs, options, entry, result);
-  } catch (const DataError& error) {
-    why = error.what();
+  if (!windows || is_unsure(windows->verdict)) {
+    try {
+      whole = by_whole_models(vehicle, logs, options, entry, result);
+    } catch (const DataError& error) {
+      why = error.what();
+    }
+    const bool settled = barred || (whole && ladder &&
+                                    needs_no_windows(*ladder, entry.record, whole->trained, whole->verdict));
+    if (!settled && !windows) windows = along_motion();
   }
-  // Logs that cannot be trusted tell nothing that way either, and hover tells no cause.
-  const bool barred = !disqualified(entry.tested).empty() || is_hover(entry.tested);
-  std::optional<WindowDiagnosis> windows;
-  if (!barred) windows = diagnose_windows(vehicle, logs, options, entry, result);
   if (!windows || (whole && !stands_against(*windows, entry.record, whole->trained, whole->verdict))) {
     if (!whole) throw DataError(why);
     return *std::move(whole);
   }
-  warn_of_measured_motion(windows->result, whole ? "" : why);
+  warn_of_measured_motion(windows->result, misses_turning && !whole, why);
   return *std::move(windows);
 }
 

@@ -29,6 +29,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kExplains = 0.7;  // of what was gained: half of its square is explained
+
 // Of forces or of moments: what was found, and what is said of it.
 struct Side {
   Side(const FlightRecord& record, FitTo what, std::vector<std::string> settled)
@@ -40,18 +42,19 @@ struct Side {
   Judged verdict;
   GapClosed gap;
 
-  bool explained = true;  // what the inputs say is most of what was gained
+  double missed = 0;  // share of the rates gained over a window that the model misses; 0 of forces
+
+  bool explained() const { return missed < kExplains; }
 };
 
-// Whether the model misses much less than nothing would: half of the square of what was gained over a window.
-bool explains(const WindowModel& model, double missed) {
-  constexpr double kExplains = 0.7;
+// Of the rates gained over windows, the share that a model misses; of no model at all 1.
+double missed_share(const WindowModel& model, double missed) {
   double square = 0;
   for (const Window& w : model.windows()) {
     const std::vector<BodyState<double>>& body = model.motion().arcs[w.arc].body;
     square += (body[w.end].w_B - body[w.begin].w_B).squaredNorm();
   }
-  return missed < kExplains * std::sqrt(square / static_cast<double>(model.windows().size()));
+  return missed / std::sqrt(square / static_cast<double>(model.windows().size()));
 }
 
 GapClosed closed_of(const WindowShares& of) {
@@ -112,8 +115,7 @@ std::unique_ptr<Side> diagnosed(const FlightRecord& record, FitTo what, const Ve
     seen.floor = std::hypot(1.0, air / side->shares.floor);
   }
   const Rival rival = window_rival(side->model, side->search.best);
-  // Forces carry the weight, whatever else they are.
-  side->explained = what == FitTo::forces || explains(side->model, side->shares.after);
+  if (what == FitTo::moments) side->missed = missed_share(side->model, side->shares.after);
   side->verdict = settled(judge({found, seen, side->shares.shares, rival, {}, {}, {}, side->parameters}));
   return side;
 }
@@ -125,7 +127,7 @@ std::vector<Parameter> all_parameters_of(const Side* forces, const Side* moments
   if (!moments) return out;
   for (const Parameter& other : moments->parameters) {
     const bool of_effect = other.name.find('.') != std::string::npos;
-    if (!moments->explained && !of_effect) continue;
+    if (!moments->explained() && !of_effect) continue;
     const auto known = std::ranges::find(out, other.name, &Parameter::name);
     if (known == out.end())
       out.push_back(other);
@@ -153,7 +155,7 @@ void append(std::vector<std::string>& names, const std::vector<std::string>& mor
 
 // Of inertia that inputs do not tell nothing is said.
 std::string sentence_of(const Side& moments) {
-  if (moments.explained) return moments.verdict.sentence;
+  if (moments.explained()) return moments.verdict.sentence;
   std::string out = "What was logged of the rotors does not explain how the vehicle turned: inertia is open.";
   if (moments.verdict.effects.empty()) return out;
   return fmt::format("There is {}. {}", fmt::join(moments.verdict.effects, " and "), out);
@@ -166,7 +168,7 @@ Judged together(const Side* forces, const Side* moments) {
   Judged out = by_forces ? forces->verdict : moments->verdict;
   const Judged other = by_forces ? moments->verdict : forces->verdict;
   std::ranges::copy(other.causes, std::back_inserter(out.causes));
-  if (moments->explained)
+  if (moments->explained())
     std::ranges::copy(other.findings, std::back_inserter(out.findings));
   else if (!by_forces)
     out.findings = other.findings;
@@ -187,7 +189,7 @@ Judged together(const Side* forces, const Side* moments) {
 
 // Whether moments tell a constant: their causes always, what else only where the inputs explain them.
 bool tells(const Side& moments, const Side* forces, const FreeConstant& c) {
-  return (moments.explained || c.adopted) && !(forces && is_told(*forces, c.name));
+  return (moments.explained() || c.adopted) && !(forces && is_told(*forces, c.name));
 }
 
 // The vehicle with what either side found. Constants that forces tell stay what these say.

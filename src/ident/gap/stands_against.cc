@@ -12,23 +12,26 @@
 namespace ident {
 namespace {
 
+constexpr double kByChance = 0.05 / kLadderHorizons.size();  // over all horizons
+
 // Whether errors are worse than those of `better`, at any horizon, beyond chance, and by a material part of
 // what that closes of the errors `without` causes.
 bool worse(const std::vector<WindowErrors>& errors, const std::vector<WindowErrors>& better,
            const std::vector<WindowErrors>& without) {
-  constexpr double kByChance = 0.05;  // over all horizons
   for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
     const auto square = [&](const std::vector<WindowErrors>& of) {
       return std::pow(error_of(of, Metric::velocity, h), 2);
     };
     if (square(errors) - square(better) > kMaterial * std::max(square(without) - square(better), 0.0) &&
-        worse_beyond_chance(errors, better, Metric::velocity, h, kByChance / kLadderHorizons.size()))
+        worse_beyond_chance(errors, better, Metric::velocity, h, kByChance))
       return true;
   }
   return false;
 }
 
 }  // namespace
+
+bool is_unsure(const Judged& verdict) { return verdict.status == "ambiguous" || verdict.status == "unknown"; }
 
 bool stands_against(const WindowDiagnosis& windows, const FlightRecord& record,
                     const std::vector<double>& whole, const Judged& verdict) {
@@ -45,8 +48,21 @@ bool stands_against(const WindowDiagnosis& windows, const FlightRecord& record,
       }))
     return false;
   if (worse(of_whole, of_windows, without)) return true;
-  const bool unsure = verdict.status == "ambiguous" || verdict.status == "unknown";
-  return unsure && !worse(of_windows, of_whole, without);
+  return is_unsure(verdict) && !worse(of_windows, of_whole, without);
+}
+
+bool needs_no_windows(const LadderResult& ladder, const FlightRecord& record,
+                      const std::vector<double>& whole, const Judged& verdict) {
+  if (is_unsure(verdict) || !std::ranges::all_of(whole, [](double x) { return std::isfinite(x); }))
+    return false;
+  const FlightRecord rest = held_out_of(record, kTrainingShare);
+  const MeasuredMotion motion = measured_motion(rest);
+  if (!motion.forces || motion.arcs.empty()) return false;
+  const std::vector<WindowErrors> of_whole = held_out_errors(motion, whole),
+                                  of_ladder = held_out_errors(motion, ladder.rungs[ladder.chosen].trained);
+  for (std::size_t h = 0; h < kLadderHorizons.size(); ++h)
+    if (worse_beyond_chance(of_whole, of_ladder, Metric::velocity, h, kByChance)) return false;
+  return true;
 }
 
 }  // namespace ident

@@ -38,6 +38,12 @@ Parameter estimated(const RungConstant& c, Parameter p) {
   return p;
 }
 
+// Why the full refinement was not taken.
+std::string refusal_of_full(const LadderResult& ladder) {
+  if (ladder.rungs.back().rung == Rung::full) return refusal_in_words(ladder.rungs.back());
+  return "was not tried, for rates are predicted worse by what was logged of the rotors than by no model";
+}
+
 void as_stated(Parameter& p, const Vehicle& vehicle, const std::string& why) {
   if (vehicle.has(p.name)) {
     const Known& known = vehicle.parameters.at(p.name);
@@ -54,11 +60,12 @@ void as_stated(Parameter& p, const Vehicle& vehicle, const std::string& why) {
 void settle_for_chosen(Result& result, const LadderResult& ladder, const Vehicle& vehicle) {
   result.sections.push_back(ladder_section(ladder));
   result.extra["ladder"] = as_json(ladder);
-  const RungResult &chosen = ladder.rungs[ladder.chosen], &top = ladder.rungs.back();
-  if (chosen.rung == Rung::full || top.rung != Rung::full) return;
+  const RungResult& chosen = ladder.rungs[ladder.chosen];
+  if (chosen.rung == Rung::full) return;
+  const std::string full = refusal_of_full(ladder);
   const std::string why =
-      fmt::format("as stated: the full refinement {}, and this is not of the model that was taken ({})",
-                  refusal_in_words(top), rung_name(chosen.rung));
+      fmt::format("as stated: the full refinement {}, and this is not of the model that was taken ({})", full,
+                  rung_name(chosen.rung));
   std::vector<Parameter> settled;
   for (Parameter& p : result.parameters) {
     const auto found = std::ranges::find(chosen.constants, p.name, &RungConstant::name);
@@ -79,7 +86,7 @@ void settle_for_chosen(Result& result, const LadderResult& ladder, const Vehicle
   result.warn("ladder",
               fmt::format("the full refinement {}: the model that was taken is the one {}, and what is "
                           "not of it keeps its stated value; try ident gap for what the full one lacks",
-                          refusal_in_words(top), rung_name(chosen.rung)));
+                          full, rung_name(chosen.rung)));
 }
 
 }  // namespace ident

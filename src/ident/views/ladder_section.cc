@@ -32,8 +32,8 @@ constexpr std::array<MetricText, kMetrics> kTexts{{
 const MetricText& text_of(Metric metric) { return kTexts[static_cast<std::size_t>(metric)]; }
 
 const char* key_of(Rung rung) {
-  static constexpr std::array keys{"stated", "thrust", "drag",    "battery", "ground",
-                                   "air",    "trim",   "inertia", "full"};
+  static constexpr std::array keys{"stated", "thrust", "drag", "battery", "ground",
+                                   "air",    "curve",  "trim", "inertia", "full"};
   return keys[static_cast<std::size_t>(rung)];
 }
 
@@ -75,6 +75,7 @@ std::string rung_name(Rung rung) {
                                     "with battery",
                                     "with ground",
                                     "with inflow, lift and drag of the body",
+                                    "with thrust by a curve",
                                     "with lasting moments",
                                     "with inertia and rotor torque",
                                     "full refinement"};
@@ -104,7 +105,8 @@ Section ladder_section(const LadderResult& ladder) {
   if (ladder.moments_unexplained)
     section.text += fmt::format(
         " No model predicts rates much better than no model at all: what was logged of the rotors does not "
-        "explain how the vehicle turned, and its inertia stays open. {}",
+        "explain how the vehicle turned, and its inertia stays open.{} {}",
+        ladder.misses_turning ? " The full refinement was not tried for that." : "",
         ladder.rotor_speeds ? "Other arms, hub moments or spins than those stated may be behind it."
                             : "Rotor speeds, or commands at the rate at which they are sent, would tell.");
   for (std::size_t m = 0; m < kMetrics; ++m) {

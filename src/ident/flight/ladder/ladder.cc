@@ -14,6 +14,7 @@ namespace {
 
 // Constants that no refinement may take out of their limits.
 constexpr std::array kOfABody{param::m, param::kT, param::Jxx, param::Jyy, param::Jzz};
+constexpr std::array kInertia{param::Jxx, param::Jyy, param::Jzz};
 constexpr double kAbsent = 0.01;           // of an effect's usual size: it is not there
 constexpr double kExplains = 0.7;          // of the error without a model: half of its square is explained
 constexpr double kRefusedByChance = 0.05;  // probability, of a model that is as good as those below
@@ -27,58 +28,150 @@ ErrorTable table_of(const std::vector<WindowErrors>& windows) {
   return table;
 }
 
-// A rung that is stood on: constants of both fits, its errors, and what it has estimated on either side.
-struct Standing {
-  std::size_t rung = 0;  // in the result
-  std::vector<double> trained, whole;
-  std::vector<WindowErrors> errors;
-};
-
-class Climb {
+// Judges rungs by held-out flight, against all that are stood on.
+class Judge {
  public:
-  Climb(const FlightRecord& record, LadderResult& result)
-      : record_(record),
-        training_(training_of(record, kTrainingShare)),
-        held_out_(held_out_of(record, kTrainingShare)),
-        whole_motion_(measured_motion(record_)),
-        training_motion_(measured_motion(training_)),
-        held_out_motion_(measured_motion(held_out_)),
-        result_(result) {
-    result_.seconds = held_out_.duration;
-    result_.persistence = table_of(errors_of_persistence(held_out_motion_));
-    stand(RungResult{.rung = Rung::stated, .p = record_.p}, record_.p);
+  Judge(const FlightRecord& record, LadderResult& result)
+      : held_out_(held_out_of(record, kTrainingShare)), motion_(measured_motion(held_out_)), result_(result) {
+    for (std::size_t r = 0; r < result.rungs.size(); ++r)
+      if (result.rungs[r].refusal == Refusal::none)
+        standing_.push_back({r, held_out_errors(motion_, result.rungs[r].trained)});
   }
 
+  bool can() const { return held_out_.duration > kLeastHeldOut && !motion_.arcs.empty(); }
+
+  void begin() {
+    result_.seconds = held_out_.duration, result_.persistence = table_of(errors_of_persistence(motion_));
+  }
+
+  // Whether the rung is stood on.
+  bool stand(RungResult rung) {
+    std::vector<WindowErrors> errors = held_out_errors(motion_, rung.trained);
+    rung.error = table_of(errors);
+    if (!rung.beyond.empty()) rung.refusal = Refusal::beyond;
+    if (rung.rung == Rung::inertia && !explains_rates(rung)) rung.refusal = Refusal::unexplained;
+    refuse_where_worse(rung, errors);
+    const bool good = rung.refusal == Refusal::none;
+    if (good) {
+      result_.chosen = result_.rungs.size();
+      standing_.push_back({result_.chosen, std::move(errors)});
+    }
+    result_.rungs.push_back(std::move(rung));
+    return good;
+  }
+
+  // Of the first tenth of a second, before what turns the vehicle is turned back.
+  bool explains_rates(const RungResult& rung) const {
+    const auto rate = static_cast<std::size_t>(Metric::rate);
+    return rung.error[rate][0] < kExplains * result_.persistence[rate][0];
+  }
+
+  // Whether rates by those constants are predicted worse than that none changes.
+  bool misses_turning(const std::vector<double>& trained) const {
+    const auto rate = static_cast<std::size_t>(Metric::rate);
+    return !(error_of(held_out_errors(motion_, trained), Metric::rate, 0) <= result_.persistence[rate][0]);
+  }
+
+ private:
+  struct Standing {
+    std::size_t rung = 0;  // in the result
+    std::vector<WindowErrors> errors;
+  };
+
+  struct Comparison {
+    const Standing* lower;
+    Metric metric;
+    std::size_t horizon;
+  };
+
+  // All errors in which the next rung is compared with one below it.
+  std::vector<Comparison> comparisons() const {
+    std::vector<Comparison> out;
+    for (const Standing& lower : standing_)
+      for (std::size_t m = 0; m < kMetrics; ++m)
+        for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
+          const Metric metric = static_cast<Metric>(m);
+          const double error = result_.rungs[lower.rung].error[m][h];
+          if (metric == Metric::velocity || error < kExplains * result_.persistence[m][h])
+            out.push_back({&lower, metric, h});
+        }
+    return out;
+  }
+
+  // All comparisons together refuse a right model with probability kRefusedByChance at most (Bonferroni).
+  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors) const {
+    const std::vector<Comparison> all = comparisons();
+    const double level = kRefusedByChance / static_cast<double>(all.size());
+    for (const auto& [lower, metric, horizon] : all) {
+      if (rung.refusal != Refusal::none) return;
+      if (!worse_beyond_chance(errors, lower->errors, metric, horizon, level)) continue;
+      rung.refusal = Refusal::worse;
+      rung.than = result_.rungs[lower->rung].rung, rung.metric = metric, rung.horizon = horizon;
+    }
+  }
+
+  FlightRecord held_out_;
+  MeasuredMotion motion_;
+  LadderResult& result_;
+  std::vector<Standing> standing_;
+};
+
+// Fits rungs, each upon the highest that is stood on.
+class Climb {
+ public:
+  Climb(const FlightRecord& record, LadderResult& result, Judge& judge)
+      : record_(record),
+        training_(training_of(record, kTrainingShare)),
+        whole_motion_(measured_motion(record_)),
+        training_motion_(measured_motion(training_)),
+        result_(result),
+        judge_(judge) {}
+
   const MeasuredMotion& motion() const { return whole_motion_; }
-  bool judges() const { return result_.seconds > kLeastHeldOut && !held_out_motion_.arcs.empty(); }
 
   void fit(const RungModel& model) {
     std::vector<std::string>& names = model.what == FitTo::forces ? force_names_ : moment_names_;
     std::vector<std::string> with = names;
     with.insert(with.end(), model.constants.begin(), model.constants.end());
-    const Standing& below = standing_.back();
-    const Theta by_training = theta_of(below.trained, with), by_all = theta_of(below.whole, with);
-    const std::vector<HeldConstant> held = held_beside(with, result_.rungs[below.rung]);
+    const RungResult below = result_.rungs[result_.chosen];  // a copy: rungs are added
+    const Theta by_training = theta_of(below.trained, with), by_all = theta_of(below.p, with);
+    const std::vector<HeldConstant> held = held_beside(with, below);
     const WindowFit trained = fit_windows(training_motion_, by_training, model.what, held),
                     whole = fit_windows(whole_motion_, by_all, model.what, held);
-    RungResult rung{.rung = model.rung, .p = whole.p};
-    take_over(rung, result_.rungs[below.rung], with);
+    RungResult rung{.rung = model.rung, .p = whole.p, .trained = trained.p};
+    take_over(rung, below, with);
     describe(rung, by_all, whole, by_training, trained);
-    if (stand(std::move(rung), trained.p)) names = with;
-  }
-
-  void judge_full(const FullModel& full) {
-    RungResult rung{.rung = Rung::full, .p = full.of_all};
-    for (const FreeConstant& c : free_constants(*record_.vehicle, record_.p)) {
-      if (!c.prior_std || std::ranges::none_of(kOfABody, [&](int of) { return of == c.index; })) continue;
-      const double u = std::log(full.of_all[static_cast<std::size_t>(c.index)] / c.start);
-      const auto [low, high] = limits_of(c);
-      if (!(u >= low && u <= high)) rung.beyond.push_back(c.name);
-    }
-    stand(std::move(rung), full.of_training);
+    if (judge_.stand(rung) || (model.what == FitTo::forces && stands_turning_as(below, std::move(rung))))
+      names = with;
   }
 
  private:
+  // Forces tell nothing of inertia, and a thrust that was stated wrong has an inertia beside it that makes up
+  // for it: a rung that was refused for how it turns is tried once more with moments over inertia as below.
+  bool stands_turning_as(const RungResult& below, RungResult rung) {
+    const RungResult& refused = result_.rungs.back();
+    if (refused.refusal != Refusal::worse || refused.metric == Metric::velocity) return false;
+    const std::vector<double> from = below.p, from_trained = below.trained;
+    result_.rungs.pop_back();
+    keep_turning(from, rung.p), keep_turning(from_trained, rung.trained);
+    for (const FreeConstant& c : free_constants(*record_.vehicle, record_.p)) {
+      if (std::ranges::none_of(kInertia, [&](int J) { return J == c.index; }) || !c.prior_std) continue;
+      std::erase_if(rung.constants, [&](const RungConstant& known) { return known.name == c.name; });
+      const double value = rung.p[static_cast<std::size_t>(c.index)];
+      rung.constants.push_back({c.name, value, *c.prior_std * value / c.start, c.prior_std, c.prior_value});
+    }
+    return judge_.stand(std::move(rung));
+  }
+
+  void keep_turning(const std::vector<double>& from, std::vector<double>& p) const {
+    const double speed = record_.signals.commands && !record_.signals.rotor_speeds
+                             ? std::pow(p[param::km] / from[param::km], 2)
+                             : 1.0;
+    p[param::Jxx] = from[param::Jxx] * speed * p[param::kT] / from[param::kT];
+    p[param::Jyy] = from[param::Jyy] * speed * p[param::kT] / from[param::kT];
+    p[param::Jzz] = from[param::Jzz] * speed * p[param::kQ] / from[param::kQ];
+  }
+
   Theta theta_of(const std::vector<double>& p, const std::vector<std::string>& names) const {
     std::vector<std::string> also;
     for (const std::string& name : names)
@@ -134,83 +227,49 @@ class Climb {
     rung.correlation = rung.correlation.empty() ? found : rung.correlation.beside(found);
   }
 
-  // Judges a rung; whether it is stood on.
-  bool stand(RungResult rung, std::vector<double> trained) {
-    std::vector<WindowErrors> errors = held_out_errors(held_out_motion_, trained);
-    rung.error = table_of(errors);
-    if (!rung.beyond.empty()) rung.refusal = Refusal::beyond;
-    if (rung.rung == Rung::inertia && !explains_rates(rung)) rung.refusal = Refusal::unexplained;
-    refuse_where_worse(rung, errors);
-    const bool good = rung.refusal == Refusal::none;
-    if (good) {
-      result_.chosen = result_.rungs.size();
-      standing_.push_back({result_.chosen, std::move(trained), rung.p, std::move(errors)});
-    }
-    result_.rungs.push_back(std::move(rung));
-    return good;
-  }
-
-  // Of the first tenth of a second, before what turns the vehicle is turned back.
-  bool explains_rates(const RungResult& rung) const {
-    const auto rate = static_cast<std::size_t>(Metric::rate);
-    return rung.error[rate][0] < kExplains * result_.persistence[rate][0];
-  }
-
-  struct Comparison {
-    const Standing* lower;
-    Metric metric;
-    std::size_t horizon;
-  };
-
-  // All errors in which the next rung is compared with one below it.
-  std::vector<Comparison> comparisons() const {
-    std::vector<Comparison> out;
-    for (const Standing& lower : standing_)
-      for (std::size_t m = 0; m < kMetrics; ++m)
-        for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
-          const Metric metric = static_cast<Metric>(m);
-          const double error = result_.rungs[lower.rung].error[m][h];
-          if (metric == Metric::velocity || error < kExplains * result_.persistence[m][h])
-            out.push_back({&lower, metric, h});
-        }
-    return out;
-  }
-
-  // All comparisons together refuse a right model with probability kRefusedByChance at most (Bonferroni).
-  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors) const {
-    const std::vector<Comparison> all = comparisons();
-    const double level = kRefusedByChance / static_cast<double>(all.size());
-    for (const auto& [lower, metric, horizon] : all) {
-      if (rung.refusal != Refusal::none) return;
-      if (!worse_beyond_chance(errors, lower->errors, metric, horizon, level)) continue;
-      rung.refusal = Refusal::worse;
-      rung.than = result_.rungs[lower->rung].rung, rung.metric = metric, rung.horizon = horizon;
-    }
-  }
-
   const FlightRecord& record_;
-  FlightRecord training_, held_out_;
-  MeasuredMotion whole_motion_, training_motion_, held_out_motion_;
+  FlightRecord training_;
+  MeasuredMotion whole_motion_, training_motion_;
   LadderResult& result_;
-  std::vector<Standing> standing_;
+  Judge& judge_;
   std::vector<std::string> force_names_, moment_names_;
 };
 
+bool is_of_moments(const RungResult& rung) { return rung.rung == Rung::trim || rung.rung == Rung::inertia; }
+
 }  // namespace
 
-std::optional<LadderResult> climb_ladder(const FlightRecord& record, const std::optional<FullModel>& full) {
+std::optional<LadderResult> climb_ladder(const FlightRecord& record) {
   LadderResult result;
-  Climb climb(record, result);
-  if (!climb.judges() || (!climb.motion().forces && !climb.motion().moments)) return {};
-  for (const RungModel& model : rungs_for(climb.motion())) climb.fit(model);
-  if (full) climb.judge_full(*full);
-  const auto rate = static_cast<std::size_t>(Metric::rate);
+  Judge judge(record, result);
+  Climb climb(record, result, judge);
+  const MeasuredMotion& motion = climb.motion();
+  if (!judge.can() || (!motion.forces && !motion.moments)) return {};
+  judge.begin();
+  judge.stand(RungResult{.rung = Rung::stated, .p = record.p, .trained = record.p});
+  for (const RungModel& model : rungs_for(motion)) climb.fit(model);
   result.rotor_speeds = record.signals.rotor_speeds;
-  result.moments_unexplained =
-      climb.motion().moments && std::ranges::none_of(result.rungs, [&](const RungResult& rung) {
-        return rung.error[rate][0] < kExplains * result.persistence[rate][0];
-      });
+  const auto explains = [&](const RungResult& rung) { return judge.explains_rates(rung); };
+  result.moments_unexplained = motion.moments && std::ranges::none_of(result.rungs, explains);
+  const bool confirmed = record.signals.commands && record.signals.rotor_speeds;
+  const auto misses = [&](const RungResult& rung) {
+    return !is_of_moments(rung) || judge.misses_turning(rung.trained);
+  };
+  result.misses_turning = motion.moments && !confirmed && std::ranges::all_of(result.rungs, misses);
   return result;
+}
+
+void judge_full(LadderResult& ladder, const FlightRecord& record, const FullModel& full) {
+  RungResult rung{.rung = Rung::full, .p = full.of_all, .trained = full.of_training};
+  for (const FreeConstant& c : free_constants(*record.vehicle, record.p)) {
+    if (!c.prior_std || std::ranges::none_of(kOfABody, [&](int of) { return of == c.index; })) continue;
+    const double u = std::log(full.of_all[static_cast<std::size_t>(c.index)] / c.start);
+    const auto [low, high] = limits_of(c);
+    if (!(u >= low && u <= high)) rung.beyond.push_back(c.name);
+  }
+  Judge judge(record, ladder);
+  judge.stand(std::move(rung));
+  ladder.moments_unexplained = ladder.moments_unexplained && !judge.explains_rates(ladder.rungs.back());
 }
 
 }  // namespace ident

@@ -33,7 +33,7 @@ enum class Refusal {
 
 struct RungResult {
   Rung rung = Rung::stated;
-  std::vector<double> p;                ///< the model's constants by all flight
+  std::vector<double> p, trained;       ///< the model's constants by all flight, and by the first part
   std::vector<RungConstant> constants;  ///< estimated on this rung and those below it that are stood on
   Correlation correlation;              ///< of those
   ErrorTable error{};                   ///< on held-out flight, fitted to the rest
@@ -51,6 +51,9 @@ struct LadderResult {
   double seconds = 0.0;           ///< of held-out flight
   /// What was logged of the rotors does not say how the vehicle turned: no rung explains half of it.
   bool moments_unexplained = false;
+  /// Every rung that estimates moments predicts rates worse than no model at all. Not where both commands and
+  /// speeds were logged, for then one confirms the other as what turned the vehicle.
+  bool misses_turning = false;
   bool rotor_speeds = false;  ///< were logged: what turned the vehicle was not hidden behind commands
 };
 
@@ -64,6 +67,9 @@ struct FullModel {
 /// what follows from it, judges nothing where the lower rung explains less than half of it: the inputs do not
 /// tell it, on either rung. Nothing where the logs tell of neither forces nor moments, or hold too little
 /// flight.
-std::optional<LadderResult> climb_ladder(const FlightRecord& record, const std::optional<FullModel>& full);
+std::optional<LadderResult> climb_ladder(const FlightRecord& record);
+
+/// Adds the refined model as the last rung, judged in the same way.
+void judge_full(LadderResult& ladder, const FlightRecord& record, const FullModel& full);
 
 }  // namespace ident

@@ -37,6 +37,8 @@ std::vector<RungModel> rungs_for(const MeasuredMotion& motion) {
   if (motion.velocity)
     all.push_back(
         {Rung::air, FitTo::forces, {"axial_inflow.kz", "translational_lift.kh", "parasitic_drag.C"}});
+  if (motion.forces && commands_alone)
+    all.push_back({Rung::curve, FitTo::forces, {"thrust_curve.c", "thrust_curve.offset"}});
   if (motion.moments) {
     all.push_back({Rung::trim, FitTo::moments, {"cg_offset.x", "cg_offset.y"}});
     if (motion.velocity) all.back().constants.emplace_back("blade_flapping.kf");

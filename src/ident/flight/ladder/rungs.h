@@ -18,6 +18,7 @@ enum class Rung {
   battery,  ///< rotor speed for a command by the voltage
   ground,   ///< thrust by the height above the ground
   air,      ///< what else the air does to rotors and body
+  curve,    ///< thrust that is no square of the rotor speed, or speed that is not as stated for a command
   trim,     ///< moments that last: balance, and what the airspeed does to the hubs
   inertia,  ///< moments of inertia and torque of the rotors
   full,     ///< everything that the refinement has
