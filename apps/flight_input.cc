@@ -16,6 +16,7 @@
 #include "ident/io/file/sha256.h"
 #include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
+#include "ident/io/simulators/logged_speeds.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/io/vehicle/vehicle_read.h"
 #include "ident/io/vehicle/vehicle_write.h"
@@ -130,6 +131,8 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
     refuse_twice(input.logs);
     for (const std::string& notice : input.logs.back().notices) context.notices.push_back(notice);
   }
+  if (!options.vehicle.empty() && assumes_rotor_speeds(options.vehicle))
+    input.vehicle = with_logged_speeds(std::move(input.vehicle), input.logs);
   return input;
 }
 

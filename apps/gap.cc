@@ -18,8 +18,9 @@ struct Options {
   std::string write_params, fix;
 };
 
-void write_fix(Diagnosis& diagnosis, const Options& options, const Vehicle& stated, Context& context) {
-  const FixedFile fixed = fixed_file(options.flight.vehicle, stated, identified_vehicle(stated, diagnosis));
+void write_fix(Diagnosis& diagnosis, const Options& options, const FlightInput& input, Context& context) {
+  const FixedFile fixed = fixed_file(options.flight.vehicle, input.vehicle,
+                                     identified_vehicle(input.vehicle, diagnosis), input.logs);
   enter_fix(diagnosis, fixed, options.flight.vehicle, options.fix);
   context.notices.insert(context.notices.end(), fixed.notes.begin(), fixed.notes.end());
   context.outputs.add(options.fix, fixed.text);
@@ -59,7 +60,7 @@ Outcome run(const Options& options, Context& context) {
   Diagnosis diagnosis = diagnose_gap(input.vehicle, input.logs, gap);
   if (!options.write_params.empty())
     context.outputs.add(options.write_params, vehicle_to_yaml(diagnosis.adopted));
-  if (!options.fix.empty()) write_fix(diagnosis, options, input.vehicle, context);
+  if (!options.fix.empty()) write_fix(diagnosis, options, input, context);
   return diagnosis.result;
 }
 

@@ -46,7 +46,7 @@ TEST(FixedFile, OfASimulatorHoldsTheValuesAndTellsThem) {
   Vehicle identified = stated;
   identified.parameters["rotor_drag.kd"] = {6e-5, 1e-6};
   identified.parameters["thrust_curve.c"] = {1e-4, 1e-5};
-  const FixedFile fixed = fixed_file(path, stated, identified);
+  const FixedFile fixed = fixed_file(path, stated, identified, {});
   const Vehicle again = vehicle_of_simulator(find_simulator("gz"), fixed.text, path);
   EXPECT_NEAR(again.value("rotor_drag.kd"), 6e-5, 1e-15);
   Diagnosis diagnosis;
@@ -63,7 +63,7 @@ TEST(FixedFile, OfAVehicleFileIsWrittenAnewAndSaysSo) {
   const std::string path = write_text(folder, "v.yaml", "mass: 0.7\nlayout: x\narm: 0.2 # measured\n");
   Vehicle identified = plain_quadrotor(), stated = identified;
   identified.parameters["km"] = {800.0, 2.0};
-  const FixedFile fixed = fixed_file(path, stated, identified);
+  const FixedFile fixed = fixed_file(path, stated, identified, {});
   ASSERT_EQ(fixed.changes.size(), 1U);
   EXPECT_EQ(fixed.changes[0].name, "km");
   ASSERT_EQ(fixed.notes.size(), 1U);

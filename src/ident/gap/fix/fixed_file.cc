@@ -2,6 +2,7 @@
 #include "ident/gap/fix/fixed_file.h"
 
 #include "ident/effects/all_parameters.h"
+#include "ident/gap/fix/refit.h"
 #include "ident/io/file/read_bytes.h"
 #include "ident/io/simulators/patch.h"
 #include "ident/io/vehicle/vehicle_write.h"
@@ -27,11 +28,16 @@ FixedFile fixed_yaml(const std::string& path, const Vehicle& stated, const Vehic
 
 }  // namespace
 
-FixedFile fixed_file(const std::string& path, const Vehicle& stated, const Vehicle& identified) {
+FixedFile fixed_file(const std::string& path, const Vehicle& stated, const Vehicle& identified,
+                     std::span<const FlightLog> logs) {
   const std::string text = read_bytes(path, kLargestFile);
   const SimulatorFormat* format = recognised_simulator(text);
   if (!format) return fixed_yaml(path, stated, identified);
   SimulatorExport made = patch_simulator(*format, text, path, identified, &stated);
+  if (!made.lost.empty())
+    made.text = patch_simulator(*format, text, path, refitted(held_by(*format, identified), identified, logs),
+                                &stated)
+                    .text;
   FixedFile out{.format = std::string(format->target),
                 .changes = file_changes(*format, text, made.text, path, identified),
                 .lost = std::move(made.lost),

@@ -1,9 +1,11 @@
 // The file of a vehicle, a simulator's or YAML, with the values that were identified.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "ident/data/flight_log.h"
 #include "ident/io/simulators/changes.h"
 
 namespace ident {
@@ -17,7 +19,9 @@ struct FixedFile {
 };
 
 /// The vehicle file at `path`, which states `stated`, with the values of `identified`. Of a simulator's file
-/// nothing but the values that differ changes; YAML is written anew. Throws InputError.
-FixedFile fixed_file(const std::string& path, const Vehicle& stated, const Vehicle& identified);
+/// nothing but the values that differ changes; they make up for what it cannot hold, along the flight of
+/// these logs (refit.h). YAML is written anew. Throws InputError.
+FixedFile fixed_file(const std::string& path, const Vehicle& stated, const Vehicle& identified,
+                     std::span<const FlightLog> logs);
 
 }  // namespace ident

@@ -34,7 +34,8 @@ struct Capacity {
   std::set<std::string_view> constants;  ///< further constants kept as they are: Kdx, rotor_drag.kd, ...
   std::set<std::string_view> replaced;   ///< constants for which others stand: the format's remarks say so
   std::vector<const char*> needs;        ///< constants without which no such file can be written
-  bool everything = false;               ///< nothing is left out or changed
+  bool rotor_speeds = true;  ///< false: speed at full command is assumed, only kT km^2 and kQ km^2 count
+  bool everything = false;   ///< nothing is left out or changed
 };
 
 }  // namespace ident

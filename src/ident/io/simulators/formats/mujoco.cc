@@ -136,7 +136,7 @@ std::vector<std::string> remarks(const Vehicle&, const Vehicle&) {
 SimulatorFormat mujoco_format() {
   return {.target = "mujoco",
           .meaning = "MuJoCo: an MJCF model",
-          .holds = {.needs = {"km"}},
+          .holds = {.needs = {"km"}, .rotor_speeds = false},
           .recognises = recognises,
           .read = mjcf_fields,
           .vehicle = vehicle,
