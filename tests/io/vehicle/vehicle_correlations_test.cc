@@ -108,6 +108,18 @@ TEST(VehicleCorrelations, OfWhatAResultDoesNotStoreNothingIsKept) {
   EXPECT_EQ(v.correlation.names, (std::vector<std::string>{"kT", "kQ"}));
 }
 
+// Thrust goes with kT km^2: with kT back at what was stated, the km found beside another kT is not stored.
+TEST(VehicleCorrelations, WhatIsStoredIsItsMeanBesideWhatGoesBackToTheStated) {
+  Result result = found({"kT", "km"}, -0.9999);
+  result.parameters[0].value = 1.2, result.parameters[0].std = 0.12, result.parameters[0].prior_value = 1.0;
+  result.parameters[1].value = 0.9, result.parameters[1].std = 0.045;
+  EXPECT_EQ(with_result({}, result).value("km"), 0.9);
+  result.parameters[0].doubt("not to be believed");
+  const Vehicle v = with_result({}, result);
+  EXPECT_FALSE(v.has("kT"));
+  EXPECT_NEAR(v.value("km") * v.value("km"), 1.2 * 0.9 * 0.9, 1e-3);
+}
+
 TEST(VehicleCorrelations, TheParameterFileWins) {
   const Vehicle stated = with_result({}, found({"kT", "kQ", "km"}, 0.5));
   const Vehicle both = with_parameters(stated, with_result({}, found({"kT", "Jxx"}, 0.1)));

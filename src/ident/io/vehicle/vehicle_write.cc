@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -63,6 +64,47 @@ std::string parameter_lines(std::map<std::string, Known> parameters, bool axes_w
   return out.empty() ? out : "parameters:\n" + out;
 }
 
+// Coordinates in which estimates go together: logarithms of what is positive by its nature.
+bool in_logarithms(const Parameter& p, double other) {
+  return p.value > 0 && other > 0 && p.name.find('.') == std::string::npos && p.name != "dead_time" &&
+         p.name != "Omega_0";
+}
+
+double spread_of(const Parameter& p, double other) {
+  return in_logarithms(p, other) ? p.std / p.value : p.std;
+}
+
+double shifted(const Parameter& p, double by) {
+  if (by == 0.0) return p.value;
+  return in_logarithms(p, p.value) ? p.value * std::exp(by) : p.value + by;
+}
+
+// What is stored belongs to values of which some go back to what was stated: each moves to its mean given
+// those, C_sb C_bb^-1 (stated - found), so that the whole predicts as the fit does as far as it can.
+Eigen::VectorXd moved_with(const std::vector<const Parameter*>& stored,
+                           const std::vector<const Parameter*>& back, const Correlation& correlation) {
+  const auto n = static_cast<Eigen::Index>(stored.size()), m = static_cast<Eigen::Index>(back.size());
+  if (m == 0 || n == 0) return Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd among(m, m), across(n, m);
+  Eigen::VectorXd by(m), spread(n);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Parameter& p = *back[static_cast<std::size_t>(i)];
+    const double stated = *p.prior_value;
+    by[i] = (in_logarithms(p, stated) ? std::log(stated / p.value) : stated - p.value) / spread_of(p, stated);
+    for (Eigen::Index k = 0; k < m; ++k)
+      among(i, k) = correlation.of(p.name, back[static_cast<std::size_t>(k)]->name);
+    for (Eigen::Index k = 0; k < n; ++k)
+      across(k, i) = correlation.of(stored[static_cast<std::size_t>(k)]->name, p.name);
+  }
+  among.diagonal().array() += 1e-6;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Parameter& p = *stored[static_cast<std::size_t>(k)];
+    spread[k] = spread_of(p, p.value);
+  }
+  const Eigen::VectorXd out = spread.cwiseProduct(Eigen::VectorXd(across * among.ldlt().solve(by)));
+  return out.allFinite() ? out : Eigen::VectorXd::Zero(n);
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -117,16 +159,24 @@ Vehicle with_parameters(Vehicle vehicle, const Vehicle& found) {
 }
 
 Vehicle with_result(Vehicle before, const Result& result) {
-  std::set<std::string> stored;
+  std::vector<const Parameter*> stored, put_back;
   for (const Parameter& p : result.parameters) {
-    const bool known =
-        (p.identifiable || p.joint) && std::isfinite(p.value) && std::isfinite(p.std) && p.std > 0.0;
-    if (!known || p.name == "g" || !(is_file_parameter(p.name) || find_parameter(p.name))) continue;
-    before.parameters[p.name] = {p.value, p.std};
-    stored.insert(p.name);
+    if (p.name == "g" || !(is_file_parameter(p.name) || find_parameter(p.name))) continue;
+    if (!std::isfinite(p.value) || !std::isfinite(p.std) || !(p.std > 0.0)) continue;
+    if (p.identifiable || p.joint)
+      stored.push_back(&p);
+    else if (p.prior_value && p.value != *p.prior_value)
+      put_back.push_back(&p);
+  }
+  const Eigen::VectorXd moved = moved_with(stored, put_back, result.correlation);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    const Parameter& p = *stored[i];
+    before.parameters[p.name] = {shifted(p, moved[static_cast<Eigen::Index>(i)]), p.std};
+    names.insert(p.name);
   }
   before.correlation = before.correlation.renewed(
-      result.correlation, [&](const std::string& name) { return stored.contains(name); });
+      result.correlation, [&](const std::string& name) { return names.contains(name); });
   return before;
 }
 

@@ -19,7 +19,8 @@ Vehicle with_parameters(Vehicle vehicle, const Vehicle& found);
 
 /// The parameters that a result determines, by themselves or together (with a finite value and standard
 /// deviation, known to the file format), with their correlations, laid over what a parameter file stated
-/// before.
+/// before. What a result does not determine stays as it was stated: each value that goes with it is stored as
+/// its mean beside that.
 Vehicle with_result(Vehicle before, const Result& result);
 
 /// A word as a double-quoted YAML scalar.
