@@ -215,7 +215,8 @@ class Climb {
       const double value = theta.physical(whole.u, i);
       const bool effect = find_effect_parameter(c.name) != nullptr;
       if (effect && std::abs(value - default_value(c.name)) < kAbsent * c.scale) continue;
-      const bool rotors = c.index == param::kQ || c.index == param::km;  // which nobody states well
+      // Which nobody states well; a command may be linear in the thrust, and the curve then at its limit.
+      const bool rotors = c.index == param::kQ || c.index == param::km || rung.rung == Rung::curve;
       if (whole.at_limit[static_cast<std::size_t>(i)] && !rotors) rung.beyond.push_back(c.name);
       const double apart = value - of_training.physical(trained.u, i);
       const double std = std::hypot(theta.deviation(whole.u, i, whole.covariance), apart);

@@ -40,11 +40,11 @@ FlightRecord flown_by(const Vehicle& vehicle, FlightRecord record) {
   return record;
 }
 
-// Windows of one side, and the unit of what a model gives over them.
+// Windows of the flight, and the unit of what the forces of a model give over them.
 struct Flown {
-  Flown(const FlightRecord& record, FitTo side) : motion(measured_motion(record)), what(side) {
-    if (motion.arcs.empty() || !(what == FitTo::forces ? motion.forces : motion.moments)) return;
-    windows = windows_of(motion, what);
+  explicit Flown(const FlightRecord& record) : motion(measured_motion(record)) {
+    if (motion.arcs.empty() || !motion.forces) return;
+    windows = windows_of(motion, FitTo::forces);
     double square = 0;
     for (const Window& w : windows) square += gained(w).squaredNorm();
     const double rms = std::sqrt(square / std::max<double>(1.0, static_cast<double>(windows.size())));
@@ -53,23 +53,15 @@ struct Flown {
 
   Vec3<double> gained(const Window& w) const {
     const MeasuredArc& arc = motion.arcs[w.arc];
-    return what == FitTo::forces ? Vec3<double>(arc.gained_W[w.end] - arc.gained_W[w.begin])
-                                 : Vec3<double>(arc.body[w.end].w_B - arc.body[w.begin].w_B);
+    return arc.gained_W[w.end] - arc.gained_W[w.begin];
   }
 
-  // What is missed of the measured motion, in that unit. Moments but for their mean: for one that lasts no
-  // constant of a file without trim makes up.
+  // What is missed of the measured motion, in that unit.
   VectorXd missed(const std::vector<double>& p) const {
-    VectorXd out = missed_in(motion, windows, what, model_along(motion, p)) / unit;
-    if (what == FitTo::moments && out.size() > 0) {
-      auto axes = out.reshaped(3, out.size() / 3);
-      axes.colwise() -= VectorXd(axes.rowwise().mean());
-    }
-    return out;
+    return missed_in(motion, windows, FitTo::forces, model_along(motion, p)) / unit;
   }
 
   MeasuredMotion motion;
-  FitTo what;
   std::vector<Window> windows;
   double unit = 1.0;
 };
@@ -79,17 +71,16 @@ bool is_of_moments(const std::string& name) {
          name.starts_with("blade_flapping.");
 }
 
-// What a file may state otherwise: all but what is weighed, and the lag, of which windows of measured motion
-// tell little: it keeps the mean delay.
-std::vector<FreeConstant> constants_of(const Vehicle& held, const std::vector<double>& p, FitTo what) {
+// What a file may state otherwise of its forces. What is weighed stays; so does the lag, with the mean delay.
+std::vector<FreeConstant> constants_of(const Vehicle& held, const std::vector<double>& p) {
   std::vector<std::string> also;
   for (const auto& [name, known] : held.parameters)
     if (!name.starts_with("rotor_mismatch.")) also.push_back(name);
   std::vector<FreeConstant> out = free_constants(held, p, also);
   std::erase_if(out, [&](const FreeConstant& c) {
     const bool motor = c.index == param::zeta_m || c.index == param::omega_m || c.index == param::dead_time;
-    return is_of_moments(c.name) != (what == FitTo::moments) || motor || c.index == param::m ||
-           !held.has(c.name) || (c.positive && !(c.start > 0));
+    return is_of_moments(c.name) || motor || c.index == param::m || !held.has(c.name) ||
+           (c.positive && !(c.start > 0));
   });
   for (FreeConstant& c : out) c.prior_std.reset(), c.known_with.clear();
   return out;
@@ -148,22 +139,6 @@ class Refit {
   VectorXd target_, units_;
 };
 
-void refit_side(Vehicle& held, const Vehicle& identified, const FlightRecord& record, FitTo what) {
-  const FlightRecord by_whole = flown_by(identified, record), by_held = flown_by(held, record);
-  const Flown whole(by_whole, what), file(by_held, what);
-  const VectorXd target = whole.missed(parameter_vector(identified));
-  const std::vector<double> p = parameter_vector(held);
-  const Theta theta(p, constants_of(held, p, what), 1, false);
-  if (target.size() == 0 || theta.size() == 0) return;
-  const Refit refit(file, theta, target);
-  const VectorXd before = refit.difference(VectorXd::Zero(theta.size()));
-  if (!(before.norm() > kSame * std::sqrt(static_cast<double>(before.size())))) return;
-  const VectorXd u = refit.run();
-  for (int i = 0; i < theta.size(); ++i)
-    held.parameters[theta.constants()[static_cast<std::size_t>(i)].name].value =
-        as_stated(theta.physical(u, i));
-}
-
 }  // namespace
 
 Vehicle refitted(const Vehicle& held, const Vehicle& identified, std::span<const FlightLog> logs) {
@@ -171,7 +146,19 @@ Vehicle refitted(const Vehicle& held, const Vehicle& identified, std::span<const
   try {
     Result unused;
     const FlightEntry entry = enter_flight(identified, logs, unused);
-    for (const FitTo what : {FitTo::forces, FitTo::moments}) refit_side(out, identified, entry.record, what);
+    const FlightRecord by_whole = flown_by(identified, entry.record), by_held = flown_by(held, entry.record);
+    const Flown whole(by_whole), file(by_held);
+    const VectorXd target = whole.missed(parameter_vector(identified));
+    const std::vector<double> p = parameter_vector(held);
+    const Theta theta(p, constants_of(held, p), 1, false);
+    if (target.size() == 0 || theta.size() == 0) return out;
+    const Refit refit(file, theta, target);
+    const VectorXd before = refit.difference(VectorXd::Zero(theta.size()));
+    if (!(before.norm() > kSame * std::sqrt(static_cast<double>(before.size())))) return out;
+    const VectorXd u = refit.run();
+    for (int i = 0; i < theta.size(); ++i)
+      out.parameters[theta.constants()[static_cast<std::size_t>(i)].name].value =
+          as_stated(theta.physical(u, i));
   } catch (const DataError&) {  // no flight: the file holds what it held
   }
   return out;

@@ -3,11 +3,11 @@
 // The file holds a model R of the vehicle M that was identified. Along the flown motion R is to accelerate
 // as M does: over windows i of measured flight,
 //
-//   min over u:  sum |dv_R(u) - dv_M|_i^2/s_v^2 + |u|^2,   then the same of dw over the constants of moments
-//   (14)
+//   min over u:  sum |dv_R(u) - dv_M|_i^2/s^2 + |u|^2                                                   (14)
 //
-// with dv, dw what forces and moments of a model give over a window, dw less its mean, s a hundredth of what
-// the vehicle itself gained, and u the constants of R about their plain values. Nothing changes where R is M.
+// with dv what the forces of a model give over a window, s a hundredth of what the vehicle itself gained, and
+// u the constants of R about their plain values. Nothing changes where R is M. Moments stay as they are: see
+// gap/README.md.
 #pragma once
 
 #include <span>
