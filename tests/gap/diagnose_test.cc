@@ -126,6 +126,22 @@ TEST(Diagnosis, AMotorStatedNearlyInstantIsTheCauseItself) {
   EXPECT_NEAR(found.adopted.parameters.at("omega_m").value, truth, 0.1 * truth);
 }
 
+// Held at its wrong value by what was stated of it, even a little, it would leave work to other causes.
+TEST(Diagnosis, ARotorInertiaStatedAsNoneIsNamedAloneAndNotPulledBack) {
+  Vehicle model = published_vehicle();
+  known_to(0.01, {"omega_m", "zeta_m", "Jxx", "Jyy", "Jzz"}, model);
+  known_to(0.003, {"km", "kT", "kQ"}, model);
+  Vehicle truth = model;
+  truth.parameters["Jp"] = {7e-6, {}};
+  model.parameters["Jp"] = {0.0, 1e-9};
+  const std::vector<FlightLog> logs{flight_of(truth, 11)};
+  const Diagnosis found = diagnose_gap(model, logs);
+  EXPECT_EQ(found.result.extra["verdict"]["effects"], nlohmann::ordered_json({"parameter:Jp"}))
+      << found.result.extra["verdict"];
+  const Known& Jp = found.adopted.parameters.at("Jp");
+  EXPECT_NEAR(Jp.value, 7e-6, 3 * *Jp.std);
+}
+
 // Damping stated wrongly and with confidence, beside a loose omega_m that the same fit may move.
 TEST(Diagnosis, AWronglyStatedDampingIsFoundAndWithoutItInTheCatalogueSaidToBeContradicted) {
   Vehicle model = published_vehicle();

@@ -1,6 +1,7 @@
 // Frees wrong parameters of their priors, then the fit of any model.
 #include "ident/gap/hypotheses/fitted_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -42,7 +43,7 @@ FittedModel fitted(std::vector<FreeConstant> constants, std::vector<Candidate> a
   for (const Candidate& c : model.adopted)
     if (c.parameter >= 0) {
       FreeConstant& f = freed[static_cast<std::size_t>(c.parameter)];
-      f.prior_std = 100 * f.prior_std.value_or(std::abs(f.start));
+      f.prior_std = std::max(kDropped * f.prior_std.value_or(std::abs(f.start)), f.unit());
       know_alone(freed, f.index);
     }
   model.theta = std::make_shared<Theta>(p, freed, record.logs, record.signals.rates);

@@ -14,8 +14,11 @@ using Eigen::VectorXd;
 // The price of a direction is half the log of the odds between the sizes that it might have had, some times
 // its typical one, and those that the data leave; at most that of an effective sample.
 constexpr double kPricePerDirection = 2.5;
-constexpr double kDropped = 100.0;  // times its deviation, a prior counts as dropped
 constexpr double kPlausible = 9.0;  // square of the largest plausible size over the typical one
+
+PriorTerms dropped(const PriorTerms& prior, int i) {
+  return prior.loosened(i, std::max(kDropped, std::abs(prior.slope[i])));
+}
 
 // The part of an information matrix over the unknowns `free`, factored at a unit diagonal.
 class Part {
@@ -57,7 +60,7 @@ using Held = std::vector<std::pair<int, double>>;  // unknowns and where they st
 Solved minimum(const QuadraticForm& f, const std::vector<int>& free, const Held& held,
                const std::vector<int>& without_prior, Eigen::Index priced = 0) {
   PriorTerms prior = f.prior;
-  for (const int i : without_prior) prior = prior.loosened(i, kDropped);
+  for (const int i : without_prior) prior = dropped(prior, i);
   const double waived = f.prior.cost() - prior.cost();  // where the form stands
   const MatrixXd H = f.S + prior.information();
   const VectorXd g = f.g + prior.gradient();
@@ -207,7 +210,7 @@ double deviation_of(const QuadraticForm& form, const ExtendedProblem& problem, i
   const int target = parameter ? c.parameter : c.directions[static_cast<std::size_t>(direction)];
   std::vector<int> free = base_unknowns(form, problem);
   if (!parameter) free.push_back(target);
-  const PriorTerms prior = parameter ? form.prior.loosened(c.parameter, kDropped) : form.prior;
+  const PriorTerms prior = parameter ? dropped(form.prior, c.parameter) : form.prior;
   const auto at = std::ranges::find(free, target) - free.begin();
   // What is stated of a parameter may be off by its own deviation as well.
   const double stated =

@@ -9,6 +9,11 @@ namespace ident {
 /// and the quadratic form is off by as much; up to here a verdict counts the size against the cause.
 inline constexpr double kFarther = 3.0;
 
+/// Times its deviation, what was stated of a constant that counts as wrong is off by as much as that; and by
+/// a unit of its unknown at least (FreeConstant::unit): its value, or the typical size of one that is mostly
+/// 0. A constant stated as zero to many digits would else be held there while others are blamed.
+inline constexpr double kDropped = 100.0;
+
 /// What a set of causes gains over a model with the base constants alone.
 struct SetGain {
   std::vector<int> members;  ///< candidates
