@@ -1,6 +1,9 @@
 // `ident gap`: where the simulator differs from the flight, which cause explains it, and how far the gap
 // closes.
+#include <fmt/format.h>
+
 #include "flight_input.h"
+#include "ident/core/error.h"
 #include "ident/gap/comparison/compare.h"
 #include "ident/gap/diagnose.h"
 #include "ident/gap/fix/fix_view.h"
@@ -18,12 +21,17 @@ struct Options {
   std::string write_params, fix;
 };
 
+// The diagnosis stands where the file cannot hold what was found.
 void write_fix(Diagnosis& diagnosis, const Options& options, const FlightInput& input, Context& context) {
-  const FixedFile fixed = fixed_file(options.flight.vehicle, input.vehicle,
-                                     identified_vehicle(input.vehicle, diagnosis), input.logs);
-  enter_fix(diagnosis, fixed, options.flight.vehicle, options.fix);
-  context.notices.insert(context.notices.end(), fixed.notes.begin(), fixed.notes.end());
-  context.outputs.add(options.fix, fixed.text);
+  try {
+    const FixedFile fixed = fixed_file(options.flight.vehicle, input.vehicle,
+                                       identified_vehicle(input.vehicle, diagnosis), input.logs);
+    enter_fix(diagnosis, fixed, options.flight.vehicle, options.fix);
+    context.notices.insert(context.notices.end(), fixed.notes.begin(), fixed.notes.end());
+    context.outputs.add(options.fix, fixed.text);
+  } catch (const InputError& error) {
+    diagnosis.result.warn("not_fixed", fmt::format("{} is not written: {}", options.fix, error.what()));
+  }
 }
 
 FlightInput flown_input(const FlightOptions& flight, Context& context) {
