@@ -323,7 +323,8 @@ Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, c
   const bool barred = !disqualified(entry.tested).empty() || is_hover(entry.tested);
   const std::optional<LadderResult> ladder = barred ? std::nullopt : climb_ladder(entry.record);
   const bool misses_turning = ladder && ladder->misses_turning;
-  const auto along_motion = [&] { return diagnose_windows(vehicle, logs, options, entry, result); };
+  const std::optional<FoundByLadder> found = ladder ? found_by_ladder(*ladder) : std::nullopt;
+  const auto along_motion = [&] { return diagnose_windows(vehicle, logs, options, entry, result, found); };
   std::optional<WindowDiagnosis> windows;
   if (misses_turning) windows = along_motion();
   std::optional<Looked> whole;

@@ -261,7 +261,8 @@ void diagnose_trim(Diagnosis& out, const FlightRecord& record, const std::vector
                          {"horizons", Json::array()},
                          {"forces", nullptr},
                          {"moments", nullptr},
-                         {"open_loop", nullptr}};
+                         {"open_loop", nullptr},
+                         {"rotor_speeds", nullptr}};
   result.extra["balance"] = {{"stretches", trim.stretches.size()},
                              {"rotor_scatter", base.trim.scatter.rotor},
                              {"level_scatter", base.trim.scatter.level},

@@ -278,13 +278,16 @@ std::vector<double> with_moments(std::vector<double> p, const Side* forces,
 
 }  // namespace
 
-std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& vehicle, std::span<const FlightLog> logs,
+std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span<const FlightLog> logs,
                                                 const GapOptions& options, const FlightEntry& entry,
-                                                const Result& begun) {
+                                                const Result& begun,
+                                                const std::optional<FoundByLadder>& found_before) {
   const FlightRecord& record = entry.record;
-  const std::unique_ptr<Side> forces = diagnosed(record, FitTo::forces, vehicle, entry.p, options, nullptr);
+  const Vehicle vehicle = found_before ? with_found(stated, *found_before) : stated;
+  const std::vector<double> start = found_before ? with_found(entry.p, *found_before) : entry.p;
+  const std::unique_ptr<Side> forces = diagnosed(record, FitTo::forces, vehicle, start, options, nullptr);
   Vehicle known = vehicle;
-  std::vector<double> p = entry.p;
+  std::vector<double> p = start;
   if (forces) {
     const FittedModel& best = forces->search.result.best;
     known = held_at(adopted_vehicle(vehicle, best), *forces), p = best.theta->p(best.fit.u);
@@ -296,17 +299,21 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& vehicle, std::spa
   result = begun;
   result.parameters = all_parameters_of(forces.get(), moments.get());
   Judged verdict = together(forces.get(), moments.get());
+  if (found_before) {
+    result.parameters = with_found(std::move(result.parameters), *found_before);
+    verdict = with_found(std::move(verdict), *found_before);
+  }
   const Side& main =
       forces && (!moments || !forces->verdict.effects.empty() || moments->verdict.effects.empty()) ? *forces
                                                                                                    : *moments;
   const ResidualWrench before = wrench_of(main.model, main.search.base),
                        after = wrench_of(main.model, main.search.best);
   const FlightRecord part = training_of(record, kTrainingShare);
-  out.trained = out.without_causes = entry.p;
+  out.trained = out.without_causes = start;
   if (forces) {
     const SearchResult& found = forces->search.result;
     const auto trained = [&](const FittedModel& model) {
-      return trained_by_part(part, FitTo::forces, vehicle, options.exclude, entry.p, model);
+      return trained_by_part(part, FitTo::forces, vehicle, options.exclude, start, model);
     };
     out.trained = trained(found.best), out.without_causes = trained(found.base);
     if (is_sure(forces->verdict)) out.of_forces = forces->verdict.effects;

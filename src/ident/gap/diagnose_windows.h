@@ -10,6 +10,7 @@
 #include "ident/data/flight_log.h"
 #include "ident/flight/prepare.h"
 #include "ident/gap/diagnose.h"
+#include "ident/gap/found_by_ladder.h"
 
 namespace ident {
 
@@ -20,10 +21,11 @@ struct WindowDiagnosis : Diagnosis {
   std::vector<std::string> of_forces;  ///< names of causes that forces show
 };
 
-/// Of a flight that was entered, with what `begun` says of it. None where neither forces nor moments were
-/// logged along with how the vehicle turned.
+/// Of a flight that was entered, with what `begun` says of it, beside what the ladder found. None where
+/// neither forces nor moments were logged along with how the vehicle turned.
 std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& vehicle, std::span<const FlightLog> logs,
                                                 const GapOptions& options, const FlightEntry& entry,
-                                                const Result& begun);
+                                                const Result& begun,
+                                                const std::optional<FoundByLadder>& found_before);
 
 }  // namespace ident

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/effects/all_parameters.h"
+#include "ident/effects/cause_traits.h"
 #include "ident/views/ladder_section.h"
 
 namespace ident {
@@ -31,9 +32,13 @@ Parameter estimated(const RungConstant& c, Parameter p) {
     if (*p.from_flight > 0.05)
       p.pull = (c.value - c.prior_value) / (*c.prior_std * std::sqrt(*p.from_flight));
   }
+  const bool stands_for_all = stands_for_lasting_moment(c);
+  if (stands_for_all) p.identifiable = false;
   // Weak by itself, and yet of one model with the rest: it predicts only together with that.
   p.joint = !p.identifiable;
-  if (!p.identifiable)
+  if (stands_for_all)
+    p.note = "stands for whatever makes a lasting moment, a weak rotor or a bent arm too";
+  else if (!p.identifiable)
     p.note = "these logs say little of it by itself; it belongs to the model that was taken";
   return p;
 }
@@ -44,11 +49,9 @@ std::string refusal_of_full(const LadderResult& ladder) {
   return "was not tried, for rates are predicted worse by what was logged of the rotors than by no model";
 }
 
-void as_stated(Parameter& p, const Vehicle& vehicle, const std::string& why) {
-  if (vehicle.has(p.name)) {
-    const Known& known = vehicle.parameters.at(p.name);
-    p.value = known.value, p.std = known.std.value_or(kNaN);
-  }
+// As it was before the flight, whatever the refused fit made of it.
+void as_before(Parameter& p, double value, const Vehicle& vehicle, const std::string& why) {
+  p.value = value, p.std = vehicle.has(p.name) ? vehicle.parameters.at(p.name).std.value_or(kNaN) : kNaN;
   p.ci95 = {p.value - 1.96 * p.std, p.value + 1.96 * p.std};
   p.naive_std.reset(), p.pull.reset();
   p.from_flight = 0.0, p.note = why;
@@ -56,6 +59,12 @@ void as_stated(Parameter& p, const Vehicle& vehicle, const std::string& why) {
 }
 
 }  // namespace
+
+bool stands_for_lasting_moment(const RungConstant& c) {
+  return !c.prior_std && traits_of(c.name.substr(0, c.name.find('.'))).moves_mass;
+}
+
+Parameter parameter_of(const RungConstant& constant) { return estimated(constant, {}); }
 
 void settle_for_chosen(Result& result, const LadderResult& ladder, const Vehicle& vehicle) {
   result.sections.push_back(ladder_section(ladder));
@@ -66,16 +75,18 @@ void settle_for_chosen(Result& result, const LadderResult& ladder, const Vehicle
   const std::string why =
       fmt::format("as stated: the full refinement {}, and this is not of the model that was taken ({})", full,
                   rung_name(chosen.rung));
+  const std::vector<double>& stated = ladder.rungs.front().p;
   std::vector<Parameter> settled;
   for (Parameter& p : result.parameters) {
     const auto found = std::ranges::find(chosen.constants, p.name, &RungConstant::name);
+    const double before = stated[static_cast<std::size_t>(find_parameter(p.name)->index)];
     if (found != chosen.constants.end())
       settled.push_back(estimated(*found, p));
-    else
-      as_stated(p, vehicle, why), settled.push_back(p);
+    else if (vehicle.has(p.name) || before != default_value(p.name))  // else the refused fit had added it
+      as_before(p, before, vehicle, why), settled.push_back(p);
   }
   for (const RungConstant& c : chosen.constants)
-    if (!result.find(c.name)) settled.push_back(estimated(c, {}));
+    if (!result.find(c.name)) settled.push_back(parameter_of(c));
   result.parameters = std::move(settled);
   result.correlation = chosen.correlation;
   // What was said of the values that are given no more.

@@ -27,13 +27,15 @@ constexpr std::array<MetricText, kMetrics> kTexts{{
     {"attitude", "attitude, velocity as measured", "deg", kDegrees},
     {"open_velocity", "velocity, open loop", "m/s", 1.0},
     {"open_attitude", "attitude, open loop", "deg", kDegrees},
+    {"rotor_speed", "rotor speeds for commands", "rad/s", 1.0},
 }};
 
 const MetricText& text_of(Metric metric) { return kTexts[static_cast<std::size_t>(metric)]; }
 
 const char* key_of(Rung rung) {
-  static constexpr std::array keys{"stated", "thrust", "drag", "battery", "ground",
-                                   "air",    "curve",  "trim", "inertia", "full"};
+  static constexpr std::array keys{"stated", "motors", "thrust", "drag",    "battery", "ground",
+                                   "air",    "curve",  "trim",   "inertia", "full"};
+  static_assert(keys.size() == static_cast<std::size_t>(Rung::full) + 1);
   return keys[static_cast<std::size_t>(rung)];
 }
 
@@ -70,6 +72,7 @@ Json json_of(const RungResult& rung) {
 
 std::string rung_name(Rung rung) {
   static constexpr std::array names{"as stated",
+                                    "with motors",
                                     "with thrust",
                                     "with drag of rotors",
                                     "with battery",
@@ -79,6 +82,7 @@ std::string rung_name(Rung rung) {
                                     "with lasting moments",
                                     "with inertia and rotor torque",
                                     "full refinement"};
+  static_assert(names.size() == static_cast<std::size_t>(Rung::full) + 1);
   return names[static_cast<std::size_t>(rung)];
 }
 
@@ -142,7 +146,8 @@ nlohmann::ordered_json as_json(const LadderResult& ladder) {
             {"rate", "rad/s"},
             {"attitude", "deg"},
             {"open_velocity", "m/s"},
-            {"open_attitude", "deg"}}},
+            {"open_attitude", "deg"},
+            {"rotor_speed", "rad/s"}}},
           {"no_model", errors_json(ladder.persistence)},
           {"moments_unexplained", ladder.moments_unexplained},
           {"rungs", rungs}};

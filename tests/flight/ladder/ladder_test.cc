@@ -31,18 +31,27 @@ Vehicle as_stated(const Vehicle& truth) {
   return v;
 }
 
-/// The record of a log that holds rotor speeds but no commands, or commands where it has no speeds.
-struct Flown {
+/// The record of a log with all that it holds.
+struct Both {
   Vehicle vehicle;
   FlightRecord record;
 
-  Flown(Vehicle stated, FlightLog log) : vehicle(std::move(stated)) {
-    if (log.has_rotor_speeds()) log.delta.clear();
+  Both(Vehicle stated, FlightLog log) : vehicle(std::move(stated)) {
     std::vector<Warning> warnings;
     const std::vector<FlightLog> logs{std::move(log)};
     record = make_flight_record(vehicle, starting_constants(vehicle, logs, warnings), logs);
   }
-  Flown(const Flown&) = delete;
+  Both(const Both&) = delete;
+};
+
+/// The same of rotor speeds without commands, or of commands where the log has no speeds.
+struct Flown : Both {
+  Flown(Vehicle stated, FlightLog log) : Both(std::move(stated), one_input(std::move(log))) {}
+
+  static FlightLog one_input(FlightLog log) {
+    if (log.has_rotor_speeds()) log.delta.clear();
+    return log;
+  }
 };
 
 const RungResult& rung_of(const LadderResult& ladder, Rung rung) {
@@ -77,6 +86,41 @@ TEST(Ladder, FindsThrustDragAndInflow) {
   expect_found(air, "axial_inflow.kz", truth.value("axial_inflow.kz"));
   const auto velocity = static_cast<std::size_t>(Metric::velocity);
   EXPECT_LT(air.error[velocity][1], 0.2 * rung_of(*ladder, Rung::stated).error[velocity][1]);
+}
+
+// Where commands and speeds were logged, each tells of the other, whatever thrust and inertia are.
+TEST(Ladder, SpeedsForCommandsTellOfMotors) {
+  const Vehicle truth = in_air();
+  Vehicle stated = as_stated(truth);
+  stated.parameters["km"].value *= 0.85, stated.parameters["omega_m"].value *= 1.3;
+  stated.parameters["km"].std = 0.2 * truth.value("km");
+  stated.parameters["omega_m"].std = 0.3 * truth.value("omega_m");
+  const Both flown(stated, flight(truth, 100, 3));
+  const auto ladder = climb_ladder(flown.record);
+  ASSERT_TRUE(ladder);
+  const RungResult& chosen = ladder->rungs[ladder->chosen];
+  expect_found(chosen, "km", truth.value("km"));
+  expect_found(chosen, "omega_m", truth.value("omega_m"));
+  expect_found(chosen, "kT", truth.value("kT"));
+  const auto speed = static_cast<std::size_t>(Metric::rotor_speed),
+             open = static_cast<std::size_t>(Metric::open_velocity);
+  const RungResult& first = rung_of(*ladder, Rung::stated);
+  EXPECT_LT(chosen.error[speed][1], 0.3 * first.error[speed][1]);
+  EXPECT_LT(chosen.error[open][1], 0.3 * first.error[open][1]);
+}
+
+// A thrust and a motor whose errors cancel where commands are the input: both are mended, or neither.
+TEST(Ladder, MotorsAreNotMendedAlone) {
+  const Vehicle truth = in_air();
+  Vehicle stated = testing::known(truth);
+  stated.parameters["km"].value *= 0.85, stated.parameters["km"].std = 0.2 * truth.value("km");
+  stated.parameters["kT"].value /= 0.85 * 0.85, stated.parameters["kT"].std = 0.0;
+  const Both flown(stated, flight(truth, 100, 3));
+  const auto ladder = climb_ladder(flown.record);
+  ASSERT_TRUE(ladder);
+  const auto open = static_cast<std::size_t>(Metric::open_velocity);
+  EXPECT_LE(ladder->rungs[ladder->chosen].error[open][1],
+            1.2 * rung_of(*ladder, Rung::stated).error[open][1]);
 }
 
 // With attitude and velocity logged, the specific force is not asked for.

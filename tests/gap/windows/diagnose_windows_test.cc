@@ -33,7 +33,9 @@ WindowDiagnosis by_windows(const Vehicle& vehicle, FlightLog log) {
   const std::vector<FlightLog> logs{std::move(log)};
   Result result;
   const FlightEntry entry = enter_flight(vehicle, logs, result);
-  std::optional<WindowDiagnosis> found = diagnose_windows(vehicle, logs, {}, entry, result);
+  const std::optional<LadderResult> ladder = climb_ladder(entry.record);
+  std::optional<WindowDiagnosis> found =
+      diagnose_windows(vehicle, logs, {}, entry, result, ladder ? found_by_ladder(*ladder) : std::nullopt);
   if (!found) throw std::runtime_error("nothing that windows tell");
   return *std::move(found);
 }
@@ -78,6 +80,32 @@ TEST(Windows, AWrongInertiaBendsNothingThatForcesTell) {
   for (const char* name : {"rotor_drag.kd", "axial_inflow.kz"})
     EXPECT_NEAR(found.adopted.parameters.at(name).value / truth.value(name), 1.0, 0.1) << name;
   EXPECT_NEAR(found.adopted.parameters.at("m").value / truth.value("m"), 1.0, 0.01);
+}
+
+// Where commands and speeds were both logged, a wrong motor is a cause that was measured itself.
+TEST(Windows, AMotorThatSpeedsContradictIsNamedAndTheRestIsFoundBesideIt) {
+  const Vehicle truth = in_air();
+  Vehicle stated = as_stated(truth);
+  stated.parameters["km"] = {0.8 * truth.value("km"), 0.03 * truth.value("km")};
+  const WindowDiagnosis found = by_windows(stated, flight(truth, 100, 3));
+  EXPECT_TRUE(names(found, "parameter:km")) << found.verdict.sentence;
+  EXPECT_TRUE(names(found, "rotor_drag")) << found.verdict.sentence;
+  EXPECT_NEAR(found.adopted.parameters.at("km").value / truth.value("km"), 1.0, 0.01);
+  const auto& speeds = found.result.extra["gap"]["rotor_speeds"]["horizons"][1];
+  EXPECT_LT(speeds["after"].get<double>(), 0.3 * speeds["before"].get<double>());
+}
+
+// It is of the model, and no cause: a weak rotor turns the vehicle as well.
+TEST(Windows, WhatMakesALastingMomentIsOfTheModelAndNotNamed) {
+  Vehicle truth = quad(0.0);
+  const Vehicle stated = testing::known(truth);
+  truth.parameters["cg_offset.x"].value = 2e-3;
+  const WindowDiagnosis found = by_windows(stated, flight(truth, 100, 4));
+  ASSERT_TRUE(found.adopted.parameters.contains("cg_offset.x"));
+  EXPECT_NEAR(found.adopted.parameters.at("cg_offset.x").value, 2e-3, 3e-4);
+  EXPECT_FALSE(names(found, "cg_offset")) << found.verdict.sentence;
+  const auto& rates = found.result.extra["gap"]["moments"]["horizons"][0];
+  EXPECT_LT(rates["after"].get<double>(), 0.5 * rates["before"].get<double>());
 }
 
 // What an engineer's regression finds on these flights is in EXPERT.md beside them.

@@ -18,8 +18,10 @@ constexpr int kRounds = 6;
 Eigen::VectorXd weight_by_speed(const std::vector<Window>& windows, const Eigen::VectorXd& residual) {
   const std::size_t n = windows.size();
   std::vector<double> size(n), variance(n);
+  const Eigen::Index each = residual.size() / std::max<Eigen::Index>(std::ssize(windows), 1);
+  const auto of = [&](std::size_t w) { return each * static_cast<Eigen::Index>(w); };
   for (std::size_t w = 0; w < n; ++w)
-    size[w] = residual.segment<3>(3 * static_cast<Eigen::Index>(w)).squaredNorm() / 3;
+    size[w] = residual.segment(of(w), each).squaredNorm() / static_cast<double>(each);
   // The median of a mean of three squares is near 0.8 of their expectation.
   const double typical = std::max(median(size) / 0.8, 1e-18);
   variance.assign(n, typical);
@@ -41,8 +43,7 @@ Eigen::VectorXd weight_by_speed(const std::vector<Window>& windows, const Eigen:
   Eigen::VectorXd weight(residual.size());
   for (std::size_t w = 0; w < n; ++w) {
     const double apart = std::sqrt(size[w] / variance[w]);
-    weight.segment<3>(3 * static_cast<Eigen::Index>(w))
-        .setConstant(std::min(1.0, kCut / std::max(apart, 1e-9)) / variance[w]);
+    weight.segment(of(w), each).setConstant(std::min(1.0, kCut / std::max(apart, 1e-9)) / variance[w]);
   }
   return weight;
 }

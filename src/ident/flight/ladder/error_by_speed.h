@@ -8,8 +8,8 @@
 
 namespace ident {
 
-/// Weights of residuals, three components a window: the inverse of a variance a + b v^2 that is fitted to
-/// them, less for those of windows that stand out (Huber).
+/// Weights of residuals, as many components a window each: the inverse of a variance a + b v^2 that is fitted
+/// to them, less for those of windows that stand out (Huber).
 Eigen::VectorXd weight_by_speed(const std::vector<Window>& windows, const Eigen::VectorXd& residual);
 
 }  // namespace ident

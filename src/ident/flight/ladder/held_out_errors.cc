@@ -1,4 +1,5 @@
-// Predicts each window three ways: forces along measured flight, moments along measured velocity, everything.
+// Predicts each window four ways: forces along measured flight, moments along measured velocity, everything,
+// and rotors by their commands.
 #include "ident/flight/ladder/held_out_errors.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "ident/core/parallel.h"
 #include "ident/flight/ladder/model_along.h"
+#include "ident/flight/ladder/speeds_along.h"
 #include "ident/result/result.h"
 
 namespace ident {
@@ -70,6 +72,7 @@ struct Prediction {
   std::span<const double> p;
   std::vector<ModelAlong> along;
   Effects effects;
+  std::vector<std::vector<RotorSpeeds>> measured;
 };
 
 void predict_turning(WindowErrors& errors, const Prediction& by, const Vehicles& flight, std::size_t begin,
@@ -115,6 +118,28 @@ void predict_all(WindowErrors& errors, const Prediction& by, Vehicles& flight, s
   }
 }
 
+// Root mean square of what rotors differ by; NaN where none was measured.
+double apart(const RotorSpeeds& measured, const Motors& model, std::size_t rotors) {
+  double sum = 0, count = 0;
+  for (std::size_t n = 0; n < rotors; ++n)
+    if (const double d = measured[n] - model[n].Omega; std::isfinite(d)) sum += d * d, count += 1;
+  return count > 0 ? std::sqrt(sum / count) : kNaN;
+}
+
+void predict_speeds(WindowErrors& errors, const Prediction& by, Vehicles& flight, std::size_t begin,
+                    std::span<const std::size_t> ends) {
+  const std::vector<double>& t = by.motion.arcs[errors.arc].t;
+  Motors motors = by.along[errors.arc].motors[begin];
+  const std::size_t last = *std::ranges::max_element(ends);
+  for (std::size_t i = begin; i < last; ++i) {
+    flight.advance(motors, t[i], t[i + 1] - t[i]);
+    for (std::size_t h = 0; h < ends.size(); ++h)
+      if (ends[h] == i + 1)
+        errors.of[at(Metric::rotor_speed)][h] =
+            apart(by.measured[errors.arc][i + 1], motors, by.motion.record->vehicle->rotors.size());
+  }
+}
+
 // Windows with all errors NaN, and the row at which each begins.
 std::vector<std::pair<WindowErrors, std::size_t>> empty_windows(const MeasuredMotion& motion) {
   std::vector<std::pair<WindowErrors, std::size_t>> all;
@@ -130,7 +155,8 @@ std::vector<std::pair<WindowErrors, std::size_t>> empty_windows(const MeasuredMo
 
 std::vector<WindowErrors> held_out_errors(const MeasuredMotion& motion, std::span<const double> p) {
   auto windows = empty_windows(motion);
-  const Prediction by{motion, p, model_along(motion, p), Effects(p, active_effects(p))};
+  const Prediction by{motion, p, model_along(motion, p), Effects(p, active_effects(p)),
+                      motion.speeds ? measured_speeds(motion) : std::vector<std::vector<RotorSpeeds>>{}};
   in_parallel(windows.size(), [&](std::size_t w) {
     auto& [errors, begin] = windows[w];
     const MeasuredArc& measured = motion.arcs[errors.arc];
@@ -145,6 +171,7 @@ std::vector<WindowErrors> held_out_errors(const MeasuredMotion& motion, std::spa
     flight.step_to_order(2);
     if (motion.moments) predict_turning(errors, by, flight, begin, ends);
     if (motion.velocity && motion.moments) predict_all(errors, by, flight, begin, ends);
+    if (motion.speeds) predict_speeds(errors, by, flight, begin, ends);
   });
   std::vector<WindowErrors> out;
   for (const auto& [errors, begin] : windows) out.push_back(errors);
@@ -153,6 +180,8 @@ std::vector<WindowErrors> held_out_errors(const MeasuredMotion& motion, std::spa
 
 std::vector<WindowErrors> errors_of_persistence(const MeasuredMotion& motion) {
   std::vector<WindowErrors> out;
+  std::vector<std::vector<RotorSpeeds>> speeds;
+  if (motion.speeds) speeds = measured_speeds(motion);
   for (auto& [errors, begin] : empty_windows(motion)) {
     const MeasuredArc& measured = motion.arcs[errors.arc];
     const auto ends = ends_of(measured, begin, 0.5 * typical_row(motion));
@@ -172,6 +201,12 @@ std::vector<WindowErrors> errors_of_persistence(const MeasuredMotion& motion) {
       if (motion.moments) {
         errors.of[at(Metric::rate)][h] = (to.w_B - from.w_B).norm();
         errors.of[at(Metric::attitude)][h] = attitude;
+      }
+      if (motion.speeds) {
+        Motors held{};
+        for (std::size_t n = 0; n < kMaxRotors; ++n) held[n].Omega = speeds[errors.arc][begin][n];
+        errors.of[at(Metric::rotor_speed)][h] =
+            apart(speeds[errors.arc][ends[h]], held, motion.record->vehicle->rotors.size());
       }
       if (motion.velocity && motion.moments) {
         errors.of[at(Metric::open_velocity)][h] = errors.of[at(Metric::velocity)][h];

@@ -17,6 +17,7 @@ enum class Metric {
   attitude,       ///< rad, with velocity as measured
   open_velocity,  ///< m/s, everything predicted
   open_attitude,  ///< rad, everything predicted
+  rotor_speed,    ///< rad/s, by the commands: mean square over the rotors
   count
 };
 inline constexpr std::size_t kMetrics = static_cast<std::size_t>(Metric::count);

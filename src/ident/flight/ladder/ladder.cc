@@ -15,6 +15,7 @@ namespace {
 // Constants that no refinement may take out of their limits.
 constexpr std::array kOfABody{param::m, param::kT, param::Jxx, param::Jyy, param::Jzz};
 constexpr std::array kInertia{param::Jxx, param::Jyy, param::Jzz};
+constexpr std::array kTurning{param::Jxx, param::Jyy, param::Jzz, param::kQ};
 constexpr double kAbsent = 0.01;           // of an effect's usual size: it is not there
 constexpr double kExplains = 0.7;          // of the error without a model: half of its square is explained
 constexpr double kRefusedByChance = 0.05;  // probability, of a model that is as good as those below
@@ -44,13 +45,13 @@ class Judge {
     result_.seconds = held_out_.duration, result_.persistence = table_of(errors_of_persistence(motion_));
   }
 
-  // Whether the rung is stood on.
-  bool stand(RungResult rung) {
+  // Whether the rung is stood on, and by what it was fitted to: rotor speeds by themselves, the rest by all.
+  bool stand(RungResult rung, FitTo what) {
     std::vector<WindowErrors> errors = held_out_errors(motion_, rung.trained);
     rung.error = table_of(errors);
     if (!rung.beyond.empty()) rung.refusal = Refusal::beyond;
     if (rung.rung == Rung::inertia && !explains_rates(rung)) rung.refusal = Refusal::unexplained;
-    refuse_where_worse(rung, errors);
+    refuse_where_worse(rung, errors, what);
     const bool good = rung.refusal == Refusal::none;
     if (good) {
       result_.chosen = result_.rungs.size();
@@ -58,6 +59,19 @@ class Judge {
     }
     result_.rungs.push_back(std::move(rung));
     return good;
+  }
+
+  // Motors as they are may predict worse beside a thrust that is not: what is taken in the end is worse in
+  // nothing than what is below it.
+  void settle() {
+    while (result_.chosen > 0) {
+      const Standing highest = std::move(standing_.back());
+      standing_.pop_back();
+      RungResult& rung = result_.rungs[highest.rung];
+      refuse_where_worse(rung, highest.errors, FitTo::forces);
+      if (rung.refusal == Refusal::none) return;
+      result_.chosen = standing_.back().rung;
+    }
   }
 
   // Of the first tenth of a second, before what turns the vehicle is turned back.
@@ -85,12 +99,13 @@ class Judge {
   };
 
   // All errors in which the next rung is compared with one below it.
-  std::vector<Comparison> comparisons() const {
+  std::vector<Comparison> comparisons(FitTo what) const {
     std::vector<Comparison> out;
     for (const Standing& lower : standing_)
       for (std::size_t m = 0; m < kMetrics; ++m)
         for (std::size_t h = 0; h < kLadderHorizons.size(); ++h) {
           const Metric metric = static_cast<Metric>(m);
+          if (what == FitTo::speeds && metric != Metric::rotor_speed) continue;
           const double error = result_.rungs[lower.rung].error[m][h];
           if (metric == Metric::velocity || error < kExplains * result_.persistence[m][h])
             out.push_back({&lower, metric, h});
@@ -99,8 +114,8 @@ class Judge {
   }
 
   // All comparisons together refuse a right model with probability kRefusedByChance at most (Bonferroni).
-  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors) const {
-    const std::vector<Comparison> all = comparisons();
+  void refuse_where_worse(RungResult& rung, const std::vector<WindowErrors>& errors, FitTo what) const {
+    const std::vector<Comparison> all = comparisons(what);
     const double level = kRefusedByChance / static_cast<double>(all.size());
     for (const auto& [lower, metric, horizon] : all) {
       if (rung.refusal != Refusal::none) return;
@@ -130,7 +145,7 @@ class Climb {
   const MeasuredMotion& motion() const { return whole_motion_; }
 
   void fit(const RungModel& model) {
-    std::vector<std::string>& names = model.what == FitTo::forces ? force_names_ : moment_names_;
+    std::vector<std::string>& names = names_[static_cast<std::size_t>(model.what)];
     std::vector<std::string> with = names;
     with.insert(with.end(), model.constants.begin(), model.constants.end());
     const RungResult below = result_.rungs[result_.chosen];  // a copy: rungs are added
@@ -140,8 +155,9 @@ class Climb {
                     whole = fit_windows(whole_motion_, by_all, model.what, held);
     RungResult rung{.rung = model.rung, .p = whole.p, .trained = trained.p};
     take_over(rung, below, with);
-    describe(rung, by_all, whole, by_training, trained);
-    if (judge_.stand(rung) || (model.what == FitTo::forces && stands_turning_as(below, std::move(rung))))
+    describe(rung, model.what, by_all, whole, by_training, trained);
+    if (judge_.stand(rung, model.what) ||
+        (model.what == FitTo::forces && stands_turning_as(below, std::move(rung))))
       names = with;
   }
 
@@ -155,27 +171,33 @@ class Climb {
     result_.rungs.pop_back();
     keep_turning(from, rung.p), keep_turning(from_trained, rung.trained);
     for (const FreeConstant& c : free_constants(*record_.vehicle, record_.p)) {
-      if (std::ranges::none_of(kInertia, [&](int J) { return J == c.index; }) || !c.prior_std) continue;
+      if (std::ranges::none_of(kTurning, [&](int k) { return k == c.index; }) || !c.prior_std) continue;
       std::erase_if(rung.constants, [&](const RungConstant& known) { return known.name == c.name; });
       const double value = rung.p[static_cast<std::size_t>(c.index)];
       rung.constants.push_back({c.name, value, *c.prior_std * value / c.start, c.prior_std, c.prior_value});
     }
-    return judge_.stand(std::move(rung));
+    return judge_.stand(std::move(rung), FitTo::forces);
   }
 
+  // All of the inertia goes with the thrust, so that what turns the vehicle by itself, w x J w, stays too;
+  // and the torque of the rotors with it.
   void keep_turning(const std::vector<double>& from, std::vector<double>& p) const {
-    const double speed = record_.signals.commands && !record_.signals.rotor_speeds
-                             ? std::pow(p[param::km] / from[param::km], 2)
-                             : 1.0;
-    p[param::Jxx] = from[param::Jxx] * speed * p[param::kT] / from[param::kT];
-    p[param::Jyy] = from[param::Jyy] * speed * p[param::kT] / from[param::kT];
-    p[param::Jzz] = from[param::Jzz] * speed * p[param::kQ] / from[param::kQ];
+    const bool by_commands = record_.signals.commands && !record_.signals.rotor_speeds;
+    const double speed = by_commands ? std::pow(p[param::km] / from[param::km], 2) : 1.0;
+    const double thrust = p[param::kT] / from[param::kT];
+    for (const int J : kInertia)
+      p[static_cast<std::size_t>(J)] = from[static_cast<std::size_t>(J)] * speed * thrust;
+    p[param::kQ] = from[param::kQ] * thrust;
   }
 
   Theta theta_of(const std::vector<double>& p, const std::vector<std::string>& names) const {
+    // What a vehicle file need not state.
     std::vector<std::string> also;
     for (const std::string& name : names)
-      if (name.find('.') != std::string::npos) also.push_back(name);
+      if (name.find('.') != std::string::npos || name == "Omega_0") also.push_back(name);
+    std::erase_if(also, [&](const std::string& name) {
+      return record_.vehicle->has(name) && record_.vehicle->parameters.at(name).std == 0.0;
+    });
     std::vector<FreeConstant> constants = free_constants(*record_.vehicle, p, also);
     std::erase_if(constants,
                   [&](const FreeConstant& c) { return std::ranges::find(names, c.name) == names.end(); });
@@ -206,8 +228,8 @@ class Climb {
   }
 
   // Constants with deviations, which have to bear what the two fits differ by.
-  static void describe(RungResult& rung, const Theta& theta, const WindowFit& whole, const Theta& of_training,
-                       const WindowFit& trained) {
+  static void describe(RungResult& rung, FitTo what, const Theta& theta, const WindowFit& whole,
+                       const Theta& of_training, const WindowFit& trained) {
     Correlation found;
     std::vector<Eigen::Index> at;
     for (int i = 0; i < theta.constants_count(); ++i) {
@@ -220,7 +242,7 @@ class Climb {
       if (whole.at_limit[static_cast<std::size_t>(i)] && !rotors) rung.beyond.push_back(c.name);
       const double apart = value - of_training.physical(trained.u, i);
       const double std = std::hypot(theta.deviation(whole.u, i, whole.covariance), apart);
-      rung.constants.push_back({c.name, value, std, c.prior_std, c.prior_value});
+      rung.constants.push_back({c.name, value, std, c.prior_std, c.prior_value, what});
       found.names.push_back(c.name), at.push_back(i);
     }
     const Eigen::VectorXd s = whole.covariance.diagonal()(at).cwiseSqrt().cwiseInverse();
@@ -233,7 +255,7 @@ class Climb {
   MeasuredMotion whole_motion_, training_motion_;
   LadderResult& result_;
   Judge& judge_;
-  std::vector<std::string> force_names_, moment_names_;
+  std::array<std::vector<std::string>, 3> names_;  // that are fitted on each side
 };
 
 bool is_of_moments(const RungResult& rung) { return rung.rung == Rung::trim || rung.rung == Rung::inertia; }
@@ -247,16 +269,17 @@ std::optional<LadderResult> climb_ladder(const FlightRecord& record) {
   const MeasuredMotion& motion = climb.motion();
   if (!judge.can() || (!motion.forces && !motion.moments)) return {};
   judge.begin();
-  judge.stand(RungResult{.rung = Rung::stated, .p = record.p, .trained = record.p});
+  judge.stand(RungResult{.rung = Rung::stated, .p = record.p, .trained = record.p}, FitTo::forces);
   for (const RungModel& model : rungs_for(motion)) climb.fit(model);
+  judge.settle();
   result.rotor_speeds = record.signals.rotor_speeds;
   const auto explains = [&](const RungResult& rung) { return judge.explains_rates(rung); };
   result.moments_unexplained = motion.moments && std::ranges::none_of(result.rungs, explains);
-  const bool confirmed = record.signals.commands && record.signals.rotor_speeds;
+
   const auto misses = [&](const RungResult& rung) {
     return !is_of_moments(rung) || judge.misses_turning(rung.trained);
   };
-  result.misses_turning = motion.moments && !confirmed && std::ranges::all_of(result.rungs, misses);
+  result.misses_turning = motion.moments && std::ranges::all_of(result.rungs, misses);
   return result;
 }
 
@@ -269,7 +292,7 @@ void judge_full(LadderResult& ladder, const FlightRecord& record, const FullMode
     if (!(u >= low && u <= high)) rung.beyond.push_back(c.name);
   }
   Judge judge(record, ladder);
-  judge.stand(std::move(rung));
+  judge.stand(std::move(rung), FitTo::forces);
   ladder.moments_unexplained = ladder.moments_unexplained && !judge.explains_rates(ladder.rungs.back());
 }
 

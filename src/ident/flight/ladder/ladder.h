@@ -18,6 +18,7 @@ struct RungConstant {
   double value = 0.0, std = 0.0;
   std::optional<double> prior_std;  ///< with which it was stated
   double prior_value = 0.0;
+  FitTo of = FitTo::forces;  ///< to which side it was fitted
 };
 
 /// Root mean square errors, [metric][horizon]; NaN where not logged.
@@ -51,8 +52,7 @@ struct LadderResult {
   double seconds = 0.0;           ///< of held-out flight
   /// What was logged of the rotors does not say how the vehicle turned: no rung explains half of it.
   bool moments_unexplained = false;
-  /// Every rung that estimates moments predicts rates worse than no model at all. Not where both commands and
-  /// speeds were logged, for then one confirms the other as what turned the vehicle.
+  /// Every rung that estimates moments predicts rates worse than no model at all.
   bool misses_turning = false;
   bool rotor_speeds = false;  ///< were logged: what turned the vehicle was not hidden behind commands
 };

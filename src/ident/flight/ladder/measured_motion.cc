@@ -59,6 +59,7 @@ MeasuredMotion measured_motion(const FlightRecord& record) {
   motion.moments = logged.rates || logged.attitude;
   motion.velocity = logged.attitude && (logged.velocity || logged.position);
   motion.forces = motion.moments && (motion.velocity || logged.force);
+  motion.speeds = logged.commands && logged.rotor_speeds;
   for (const FlightArc& arc : record.arcs) {
     MeasuredArc measured{.arc = &arc, .body = arc.body};
     if (!logged.attitude) turn_by_rates(measured.body, arc.t);

@@ -22,6 +22,7 @@ struct MeasuredMotion {
   bool forces = false;    ///< a velocity or a specific force was logged, and how the vehicle turned
   bool moments = false;   ///< rates were logged, or an attitude
   bool velocity = false;  ///< attitude and velocity: the motion can be predicted open loop
+  bool speeds = false;    ///< of the rotors were logged beside commands
 };
 
 /// The record must outlive it.

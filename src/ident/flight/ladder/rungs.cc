@@ -25,12 +25,17 @@ std::vector<RungModel> rungs_for(const MeasuredMotion& motion) {
   std::vector<RungModel> all;
   const Signals& logged = motion.record->signals;
   const bool commands_alone = logged.commands && !logged.rotor_speeds;
+  const bool sags = logged.commands && logged.voltage;
+  if (motion.speeds) {
+    all.push_back({Rung::motors, FitTo::speeds, {"km", "omega_m", "Omega_0"}});
+    if (sags) all.push_back({Rung::battery, FitTo::speeds, {"battery_sag.n"}});
+  }
   if (motion.forces) {
     all.push_back({Rung::thrust, FitTo::forces, {"m", "kT"}});
     if (commands_alone) all.back().constants.emplace_back("km");
   }
   if (motion.velocity) all.push_back({Rung::drag, FitTo::forces, {"rotor_drag.kd"}});
-  if (motion.forces && commands_alone && logged.voltage)
+  if (motion.forces && commands_alone && sags)
     all.push_back({Rung::battery, FitTo::forces, {"battery_sag.n"}});
   if (motion.forces && logged.position && lowest_in_arms(motion) < kGroundReach)
     all.push_back({Rung::ground, FitTo::forces, {"ground_effect.radius_sq"}});

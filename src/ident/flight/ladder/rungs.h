@@ -13,6 +13,7 @@ namespace ident {
 /// What a model of the ladder has beyond the one below it.
 enum class Rung {
   stated,   ///< nothing
+  motors,   ///< rotor speeds for commands, where both were logged
   thrust,   ///< thrust for the speeds or commands flown, against the weight
   drag,     ///< drag of the rotors
   battery,  ///< rotor speed for a command by the voltage

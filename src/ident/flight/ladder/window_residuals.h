@@ -1,7 +1,8 @@
-// What a model misses over windows of measured flight, its forces and its moments apart.
+// What a model misses over windows of measured flight: its forces, its moments and its rotors apart.
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "ident/flight/ladder/measured_motion.h"
@@ -9,8 +10,9 @@
 
 namespace ident {
 
-/// Which side of (1) in window_fit.h is looked at.
-enum class FitTo { forces, moments };
+/// Which side is looked at: one of those of (1) in window_fit.h, or the speeds of the rotors for their
+/// commands.
+enum class FitTo { forces, moments, speeds };
 
 /// Windows over which that side is compared: long enough that what filters of a log's makers take away does
 /// not matter, short enough that little is turned back within one.
@@ -20,8 +22,18 @@ std::vector<Window> windows_of(const MeasuredMotion& motion, FitTo what);
 double horizon_of(FitTo what);
 
 /// What was measured beyond what the model gives, three components a window: m/s in the world, or rad/s of
-/// the body.
+/// the body. Of forces or of moments.
 Eigen::VectorXd missed_in(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
                           const std::vector<ModelAlong>& model);
+
+/// The same of any side for constants `p`. Of speeds one component for each rotor, rad/s: the mean over the
+/// window, 0 where none was measured.
+Eigen::VectorXd missed_by(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
+                          std::span<const double> p);
+
+/// Of moments, what those windows would miss more if rates were measured a second later than they were, by
+/// the angular acceleration of the model, rad/s.
+Eigen::VectorXd missed_by_late_rates(const MeasuredMotion& motion, const std::vector<Window>& windows,
+                                     const std::vector<ModelAlong>& model);
 
 }  // namespace ident

@@ -46,7 +46,11 @@ double floor_of(Metric metric, double T, const Signals& logged, const std::array
   if (metric == Metric::velocity)
     return logged.velocity ? 2 * sum_of_squares(sigma, kVelocity) : kNaN;  // (1)
   if (metric == Metric::rate) return 2 * gyro;                             // (1)
-  return 2 * sum_of_squares(sigma, kAttitude) + T * T * gyro;              // (2)
+  if (metric == Metric::rotor_speed) {                                     // (1), of a rotor in the mean
+    const double s = sigma[kRotorChannel];
+    return 2 * s * s;
+  }
+  return 2 * sum_of_squares(sigma, kAttitude) + T * T * gyro;  // (2)
 }
 
 // What both models err by at one horizon. A gap that noise of so few windows makes is none to be closed.
@@ -83,7 +87,8 @@ Json motion_errors(FlightRecord record, const ComparedModels& models) {
   const std::array scores{
       Score{"forces", "m/s", Metric::velocity, 1.0, motion.forces},
       Score{"moments", "rad/s", Metric::rate, 1.0, motion.moments},
-      Score{"open_loop", "deg", Metric::open_attitude, kDegrees, motion.velocity && motion.moments}};
+      Score{"open_loop", "deg", Metric::open_attitude, kDegrees, motion.velocity && motion.moments},
+      Score{"rotor_speeds", "rad/s", Metric::rotor_speed, 1.0, motion.speeds}};
   Json out;
   for (const Score& one : scores) {
     out[one.name] = nullptr;

@@ -79,10 +79,12 @@ Table horizon_table(const Json& gap) {
 Table motion_table(const Json& gap) {
   Table table{
       .title =
-          "Velocity with attitude and rates as measured, rates with velocity as measured, attitude open loop",
+          "Velocity with attitude and rates as measured, rates with velocity as measured, attitude open "
+          "loop, "
+          "rotor speeds by their commands",
       .columns = {"predicted", "horizon [s]", "as stated", "with what was found", "noise floor", "unit"}};
   constexpr std::array kRows{std::array{"forces", "velocity"}, std::array{"moments", "rates"},
-                             std::array{"open_loop", "attitude"}};
+                             std::array{"open_loop", "attitude"}, std::array{"rotor_speeds", "rotors"}};
   for (const auto& [key, predicted_by] : kRows) {
     if (!gap.contains(key) || !gap[key].is_object()) continue;
     std::string name = predicted_by;
