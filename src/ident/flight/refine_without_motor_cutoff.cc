@@ -12,6 +12,7 @@
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
 #include "ident/flight/checks/log_self_test.h"
+#include "ident/flight/make_record.h"
 #include "ident/flight/record/arcs.h"
 #include "ident/flight/record/flight_record.h"
 #include "ident/flight/refine_along_motion.h"

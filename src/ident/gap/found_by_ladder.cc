@@ -16,6 +16,7 @@ namespace ident {
 namespace {
 
 constexpr std::size_t kHalfSecond = 1;  // of kLadderHorizons
+constexpr double kCloses = 0.5;         // of the error as stated: the motors are most of it
 
 // A battery that the vehicle file does not state, and the speeds show.
 bool is_new_effect(const Parameter& p) {
@@ -67,11 +68,18 @@ Judged with_found(Judged verdict, const FoundByLadder& found) {
       names.push_back(p.name.substr(0, p.name.find('.')));
       said.push_back(fmt::format("{} is {}", p.name, format_with_uncertainty(p.value, p.std)));
     }
-  if (names.empty()) return verdict;
+  // Within what was stated of them they are no causes, and yet what the simulator has to be told.
+  const bool closes = found.now < kCloses * found.as_stated;
+  for (const Parameter& p : found.parameters)
+    if (names.empty() && closes && p.identifiable)
+      said.push_back(fmt::format("{} is {} {}", p.name, format_with_uncertainty(p.value, p.std), p.unit));
+  if (said.empty()) return verdict;
   const bool sure = verdict.status == "identified" || verdict.status == "partly";
-  if (!sure) verdict.effects.clear(), verdict.confused_with.clear();
+  if (!sure && !names.empty()) {
+    verdict.effects.clear(), verdict.confused_with.clear();
+    verdict.status = verdict.status == "none" ? "identified" : "partly";
+  }
   verdict.effects.insert(verdict.effects.begin(), names.begin(), names.end());
-  if (!sure) verdict.status = verdict.status == "none" ? "identified" : "partly";
   verdict.sentence = fmt::format(
       "Rotor speeds for their commands: {}; after half a second of held-out flight they are missed by {} "
       "rad/s, not by {} as stated. {}",

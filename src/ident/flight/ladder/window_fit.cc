@@ -162,6 +162,11 @@ WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo wh
   fit.u = x.head(n), fit.covariance = covariance.topLeftCorner(n, n);
   gain = gain.topRows(n).eval(), fit.at_limit.resize(static_cast<std::size_t>(n));
   fit.p = theta.p(fit.u);
+  if (what == FitTo::speeds)
+    for (const VectorXd& error : usual_errors_of_speeds(motion, windows, fit.p)) {
+      const VectorXd moved = gain * error;
+      if (moved.allFinite()) fit.covariance += moved * moved.transpose();
+    }
   add_held(fit, gain, held, [&](std::span<const double> p) { return missed_by(motion, windows, what, p); });
   return fit;
 }

@@ -13,7 +13,8 @@ using Eigen::VectorXd;
 
 constexpr double kForceHorizon = 0.5, kForceSpacing = 0.1;     // s: users judge by half a second
 constexpr double kMomentHorizon = 0.1, kMomentSpacing = 0.05;  // s: rates are turned back sooner
-constexpr double kSpeedHorizon = 0.05, kSpeedSpacing = 0.05;   // s: about the lag of a motor
+constexpr double kUsual = 0.01;
+constexpr double kSpeedHorizon = 0.05, kSpeedSpacing = 0.05;  // s: about the lag of a motor
 
 // Takes out windows in which no speed was measured.
 void leave_measured(std::vector<Window>& windows, const MeasuredMotion& motion) {
@@ -81,6 +82,24 @@ Eigen::VectorXd missed_by(const MeasuredMotion& motion, const std::vector<Window
                           std::span<const double> p) {
   if (what == FitTo::speeds) return missed_speeds(motion, windows, p);
   return missed_in(motion, windows, what, model_along(motion, p));
+}
+
+std::vector<VectorXd> usual_errors_of_speeds(const MeasuredMotion& motion, const std::vector<Window>& windows,
+                                             std::span<const double> p) {
+  if (windows.empty()) return {};
+  const std::vector<std::vector<RotorSpeeds>> model = speeds_along(motion, p);
+  const std::size_t rotors = motion.record->vehicle->rotors.size();
+  const double full = p[param::Omega_0] + p[param::km];
+  const double begin = windows.front().t, seconds = std::max(windows.back().t - begin, 1e-9);
+  VectorXd bent(static_cast<Eigen::Index>(rotors * windows.size())), drifts = bent;
+  for (std::size_t w = 0; w < windows.size(); ++w)
+    for (std::size_t n = 0; n < rotors; ++n) {
+      const double Omega = model[windows[w].arc][windows[w].begin][n];
+      const auto at = static_cast<Eigen::Index>(rotors * w + n);
+      bent[at] = kUsual * 4 * Omega * (1 - Omega / full);
+      drifts[at] = kUsual * Omega * (2 * (windows[w].t - begin) / seconds - 1);
+    }
+  return {bent, drifts};
 }
 
 VectorXd missed_by_late_rates(const MeasuredMotion& motion, const std::vector<Window>& windows,

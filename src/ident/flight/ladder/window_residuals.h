@@ -31,6 +31,13 @@ Eigen::VectorXd missed_in(const MeasuredMotion& motion, const std::vector<Window
 Eigen::VectorXd missed_by(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
                           std::span<const double> p);
 
+/// Errors that speeds for their commands have beside the equation of a motor, as residuals: a command curve
+/// that bends by a hundredth of full speed (a bench calls no curve bent before that: command_curve_bent), and
+/// speeds that drift by a hundredth along the flight, as magnets and windings get warm.
+std::vector<Eigen::VectorXd> usual_errors_of_speeds(const MeasuredMotion& motion,
+                                                    const std::vector<Window>& windows,
+                                                    std::span<const double> p);
+
 /// Of moments, what those windows would miss more if rates were measured a second later than they were, by
 /// the angular acceleration of the model, rad/s.
 Eigen::VectorXd missed_by_late_rates(const MeasuredMotion& motion, const std::vector<Window>& windows,

@@ -103,7 +103,7 @@ Table share_table(const Json& found) {
               .columns = {"", "probability", "share of the gap [%]", "95 % interval"}};
   const auto row = [&](const std::string& name, const Json& probability, const Json& share,
                        const Json& ci95) {
-    const double p = number(probability);
+    const double p = number_of(probability);
     table.rows.push_back({name, std::isfinite(p) ? fmt::format("{:.2f}", p) : "–", percent(share),
                           fmt::format("[{}, {}]", percent(ci95[0]), percent(ci95[1]))});
   };

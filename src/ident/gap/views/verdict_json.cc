@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ident/gap/views/gap_sections.h"
+#include "ident/gap/views/gap_where.h"
 #include "ident/result/json_number.h"
 
 namespace ident {
