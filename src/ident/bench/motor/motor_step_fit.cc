@@ -10,6 +10,7 @@
 #include "ident/bench/motor/motor_step_edges.h"
 #include "ident/bench/motor/motor_step_problem.h"
 #include "ident/core/statistics.h"
+#include "ident/lsq/least_squares_result.h"
 
 namespace ident {
 namespace {
