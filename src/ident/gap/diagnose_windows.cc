@@ -324,6 +324,10 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
         out.trained, forces.get(),
         trained_by_part(part, FitTo::moments, known, options.exclude, out.trained, best), *moments);
   }
+  if (found_before) {
+    out.trained = by_first_part(std::move(out.trained), *found_before);
+    out.without_causes = by_first_part(std::move(out.without_causes), *found_before);
+  }
   result.verdict = verdict.sentence;
   result.extra["by"] = "measured_motion";
   result.extra["verdict"] = to_json(verdict, after);

@@ -31,7 +31,7 @@ std::optional<FoundByLadder> found_by_ladder(const LadderResult& ladder) {
     return rung.error[static_cast<std::size_t>(Metric::rotor_speed)][kHalfSecond];
   };
   const RungResult& chosen = ladder.rungs[ladder.chosen];
-  FoundByLadder out{{}, error(ladder.rungs.front()), error(chosen)};
+  FoundByLadder out{{}, chosen.trained, error(ladder.rungs.front()), error(chosen)};
   for (const RungConstant& c : chosen.constants)
     if (c.of == FitTo::speeds || stands_for_lasting_moment(c)) out.parameters.push_back(parameter_of(c));
   if (out.parameters.empty()) return {};
@@ -46,6 +46,14 @@ Vehicle with_found(Vehicle vehicle, const FoundByLadder& found) {
 std::vector<double> with_found(std::vector<double> p, const FoundByLadder& found) {
   for (const Parameter& one : found.parameters)
     p[static_cast<std::size_t>(find_parameter(one.name)->index)] = one.value;
+  return p;
+}
+
+std::vector<double> by_first_part(std::vector<double> p, const FoundByLadder& found) {
+  for (const Parameter& one : found.parameters) {
+    const auto at = static_cast<std::size_t>(find_parameter(one.name)->index);
+    p[at] = found.trained[at];
+  }
   return p;
 }
 

@@ -12,6 +12,7 @@ namespace ident {
 
 struct FoundByLadder {
   std::vector<Parameter> parameters;
+  std::vector<double> trained;          ///< all constants of the model, by the first part of the flight
   double as_stated = kNaN, now = kNaN;  ///< error of speeds after half a second of held-out flight, rad/s
 };
 
@@ -21,6 +22,9 @@ std::optional<FoundByLadder> found_by_ladder(const LadderResult& ladder);
 /// The vehicle, and its model's constants, with those.
 Vehicle with_found(Vehicle vehicle, const FoundByLadder& found);
 std::vector<double> with_found(std::vector<double> p, const FoundByLadder& found);
+
+/// Constants of a model that is judged by the rest of the flight, with those of the first part.
+std::vector<double> by_first_part(std::vector<double> p, const FoundByLadder& found);
 
 /// Those in place of what forces and moments make of them.
 std::vector<Parameter> with_found(std::vector<Parameter> parameters, const FoundByLadder& found);

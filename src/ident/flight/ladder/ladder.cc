@@ -275,7 +275,6 @@ std::optional<LadderResult> climb_ladder(const FlightRecord& record) {
   result.rotor_speeds = record.signals.rotor_speeds;
   const auto explains = [&](const RungResult& rung) { return judge.explains_rates(rung); };
   result.moments_unexplained = motion.moments && std::ranges::none_of(result.rungs, explains);
-
   const bool confirmed = record.signals.commands && record.signals.rotor_speeds;
   const auto misses = [&](const RungResult& rung) {
     return !is_of_moments(rung) || judge.misses_turning(rung.trained);
