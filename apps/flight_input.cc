@@ -12,6 +12,7 @@
 
 #include "campaign_priors.h"
 #include "ident/core/parallel.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/checks/never_flew.h"
 #include "ident/io/file/sha256.h"
 #include "ident/io/log/log_map.h"
@@ -86,6 +87,7 @@ void add_flight_options(CLI::App& cli, FlightOptions& options) {
 }
 
 FlightInput flight_input(const FlightOptions& options, Model model, Context& context) {
+  const Stage stage("read files");
   FlightInput input;
   const std::optional<Campaign> campaign = find_campaign();
   std::vector<CampaignLog> logs;

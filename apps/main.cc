@@ -26,6 +26,7 @@ Registered add(CLI::App& program, const std::string& name, const std::string& su
   auto shared = std::make_shared<SharedOptions>();
   const Action action = declare(*cli);
   cli->add_flag("--json", shared->json, "print the result as JSON on standard output, nothing else");
+  cli->add_flag("--timing", shared->timing, "tell on stderr where the time went");
   if (cli->get_option_no_throw("--report") != nullptr) return {cli, action, shared};  // its own
   cli->add_option("--report", shared->report, "write a report: .html, .md or .json")
       ->type_name("FILE")
@@ -75,7 +76,9 @@ int run(int argc, char** argv) {
     Context context{.command_line = std::vector<std::string>(argv, argv + argc)};
     if (command.shared->report.empty()) context.shown = command.shared->json ? Shown::numbers : Shown::tables;
     Outcome outcome = command.action(context);
-    return static_cast<int>(finish(std::move(outcome), context, *command.shared));
+    const ExitStatus status = finish(std::move(outcome), context, *command.shared);
+    if (command.shared->timing) std::cerr << timing_table();
+    return static_cast<int>(status);
   }
   return static_cast<int>(ExitStatus::bad_input);
 }

@@ -11,7 +11,7 @@ namespace ident::app {
 
 /// Options that the shell adds to every subcommand.
 struct SharedOptions {
-  bool json = false;
+  bool json = false, timing = false;
   std::string report;
 };
 
@@ -29,6 +29,9 @@ void add_provenance(Result& result, Context& context);
 
 /// What to run next, as a command line; empty where nothing suggests itself.
 std::string next_command(const Result& result, const Context& context);
+
+/// Where the time went, as lines for stderr.
+std::string timing_table();
 
 /// Completes the result, writes all outputs, prints. Returns the exit status.
 ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "ident/core/stage_times.h"
 #include "ident/io/file/sha256.h"
 #include "ident/report/campaign_report.h"
 #include "ident/report/report_files.h"
@@ -96,6 +97,7 @@ void add_report(Outputs& outputs, const std::vector<ReportFile>& files) {
 }
 
 ExitStatus finish(Outcome outcome, Context& context, const SharedOptions& options) {
+  const Stage stage("report and outputs");
   Result& result = outcome.result;
   add_provenance(result, context);
   if (!options.report.empty()) add_report(context.outputs, report_files(options.report, result));

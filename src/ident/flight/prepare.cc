@@ -9,6 +9,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/format_number.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/checks/command_rate.h"
 #include "ident/flight/checks/commands_vs_speeds.h"
 #include "ident/flight/checks/log_self_test.h"
@@ -123,6 +124,7 @@ std::vector<double> starting_constants(const Vehicle& vehicle, std::span<const F
 }
 
 FlightEntry enter_flight(const Vehicle& vehicle, std::span<const FlightLog> given, Result& result) {
+  const Stage stage("enter logs and check them");
   const std::vector<FlightLog> alike = with_like_inputs(given, result.warnings);
   const std::span<const FlightLog> given_logs = alike.empty() ? given : std::span<const FlightLog>(alike);
   const auto tell = [&](const std::vector<Warning>& warnings) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ident/core/format_number.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/checks/log_self_test.h"
 #include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/prepare.h"
@@ -188,6 +189,7 @@ std::string in_words(const Simulated& found, double seconds, double horizon) {
 }  // namespace
 
 Result verify_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, double horizon) {
+  const Stage stage("simulation of the logs");
   Result result;
   result.command = "flightlog";
   auto [p, record, tested, vibration] = enter_flight(vehicle, logs, result);

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 
+#include "ident/core/stage_times.h"
 #include "ident/flight/checks/gusts_expected.h"
 #include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fitted_parameters.h"
@@ -282,6 +283,7 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
                                                 const GapOptions& options, const FlightEntry& entry,
                                                 const Result& begun,
                                                 const std::optional<FoundByLadder>& found_before) {
+  const Stage stage("along measured motion");
   const FlightRecord& record = entry.record;
   const Vehicle vehicle = found_before ? with_found(stated, *found_before) : stated;
   const std::vector<double> start = found_before ? with_found(entry.p, *found_before) : entry.p;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "ident/core/error.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/fit/fit_driver.h"
 #include "ident/flight/record/excerpts.h"
 
@@ -70,6 +71,7 @@ std::unique_ptr<Fitting> started(const FlightRecord& record, const Theta& theta,
 }  // namespace
 
 FlightFit fit_flight(const FlightRecord& record, const Theta& theta, const FlightFitOptions& options) {
+  const Stage stage("fit of a model");
   const auto tell = [&](double from, double to) {
     return [&options, from, to](double share) {
       if (options.progress) options.progress(from + share * (to - from));

@@ -6,6 +6,7 @@
 
 #include "ident/core/error.h"
 #include "ident/core/random.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/fit/fit_steps.h"
 #include "ident/flight/fit/sandwich_covariance.h"
 #include "ident/flight/record/excerpts.h"
@@ -41,6 +42,7 @@ double worth_a_step(const FlightSmoother& smoother, const FlightFitOptions& opti
 }
 
 void finish_fit(FlightFit& fit, const Theta& theta, const FlightFitOptions& options, bool at_minimum) {
+  const Stage stage("covariance");
   FlightSmoother& smoother = *fit.smoother;
   const auto minimum = [&](bool in_double) {
     smoother.set_exact(in_double);

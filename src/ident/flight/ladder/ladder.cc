@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/stage_times.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/flight/ladder/constant_limits.h"
 #include "ident/flight/ladder/paired_comparison.h"
@@ -263,6 +264,7 @@ bool is_of_moments(const RungResult& rung) { return rung.rung == Rung::trim || r
 }  // namespace
 
 std::optional<LadderResult> climb_ladder(const FlightRecord& record) {
+  const Stage stage("ladder of plain models");
   LadderResult result;
   Judge judge(record, result);
   Climb climb(record, result, judge);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ident/core/simd/dense_rows.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/smoother/chunk_maps.h"
 #include "ident/flight/smoother/smoother.h"
 
@@ -217,6 +218,7 @@ void FlightSmoother::hold(const VectorXd& du) {
 }
 
 void FlightSmoother::eliminate(const VectorXd* held_step) {
+  const Stage stage("states eliminated");
   const bool held = held_step != nullptr;
   begin_eliminations();
   if (held) hold(*held_step);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/stage_times.h"
 #include "ident/flight/smoother/chunk_maps.h"
 #include "ident/flight/smoother/smoother.h"
 
@@ -191,6 +192,7 @@ double FlightSmoother::update_noise(const LinkMoments& moments, NoisePaces& pace
 }
 
 double FlightSmoother::retune(int rounds, bool eliminated) {
+  const Stage stage("process noise");
   double change = 0;
   VectorXd du;
   NoisePaces paces{.logs = std::vector<std::array<Pace, 6>>(noise_.air.size()), .shown = {}};

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "ident/core/parallel.h"
+#include "ident/core/stage_times.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/flight/smoother/chunk_maps.h"
 
@@ -120,6 +121,7 @@ void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage) {
 
 void FlightSmoother::evaluate(const VectorXd& u, bool jacobian, bool leverage,
                               const std::vector<std::size_t>& chunks) {
+  const Stage stage("chunks simulated");
   const std::vector<double> p = theta_->p(u);
   std::vector<std::vector<Seed>> seeds;
   seeds.reserve(static_cast<std::size_t>(record_->logs));

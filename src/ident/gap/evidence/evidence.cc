@@ -1,6 +1,7 @@
 // Names the two models of the traces and asks for the channels in which the second gains most.
 #include "ident/gap/evidence/evidence.h"
 
+#include "ident/core/stage_times.h"
 #include "ident/views/prediction_traces.h"
 
 namespace ident {
@@ -18,6 +19,7 @@ std::string name_of_found(const FittedModel& best) {
 
 GapEvidence evidence_of(const FlightRecord& record, const SearchResult& search, const HeldOutFlight& held_out,
                         Shown shown) {
+  const Stage stage("signatures and pictures");
   GapEvidence evidence{{}, signatures(record, search)};
   if (shown != Shown::pictures) return evidence;
   std::vector<int> channels = channels_that_gain(held_out.errors_before, held_out.errors_after);

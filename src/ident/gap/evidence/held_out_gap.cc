@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "ident/core/stage_times.h"
 #include "ident/flight/fit/fit_covariance.h"
 #include "ident/flight/record/excerpts.h"
 #include "ident/gap/evidence/motion_errors.h"
@@ -93,6 +94,7 @@ void judge_horizon(HeldOutGap& all) {
 }  // namespace
 
 HeldOutGap held_out_gap(const FlightRecord& record, const SearchResult& search) {
+  const Stage stage("held-out flight");
   HeldOutGap all{.record = held_out_of(record, kTrainingShare)};
   all.windows.steps = search.best.fit.smoother->steps();
   all.found = fit_of_training(search.best.fit, record, *search.best.theta, kTrainingShare);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "ident/core/stage_times.h"
 #include "ident/gap/hypotheses/cause_alone.h"
 
 namespace ident {
@@ -102,6 +103,7 @@ GapShares share_out(const std::vector<std::string>& names, const std::vector<Blo
 }
 
 GapShares gap_shares(const HeldOutGap& all, const SearchResult& search) {
+  const Stage stage("shares");
   const GapClosed& judged = all.judged;
   std::vector<Player> players = players_of(search);
   if (players.empty())

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/core/stage_times.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/flight/fit/fit_noise.h"
 
@@ -128,6 +129,7 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
 
 FittedModel with_lag_held(const std::vector<FreeConstant>& base, const FlightRecord& record,
                           const std::vector<double>& p, const FlightFitOptions& options) {
+  const Stage stage("lag of the motors");
   std::vector<FreeConstant> held = base;
   for (FreeConstant& c : held)
     if ((c.index == param::omega_m || c.index == param::zeta_m) && c.prior_std) {

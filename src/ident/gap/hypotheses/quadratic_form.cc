@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/stage_times.h"
 #include "ident/effects/all_parameters.h"
 
 namespace ident {
@@ -66,6 +67,7 @@ void add_blocks(QuadraticForm& form, const std::vector<ScoreBlock>& blocks, cons
 
 QuadraticForm linearise_everything(const FlightRecord& record, const FlightFit& fit, const Theta& fitted,
                                    const ExtendedProblem& problem) {
+  const Stage stage("every cause linearised");
   QuadraticForm form;
   std::vector<FreeConstant> constants = problem.constants;
   for (int i = 0; i < problem.base; ++i)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ident/core/error.h"
+#include "ident/core/stage_times.h"
 #include "ident/effects/cause_traits.h"
 #include "ident/flight/fit/fit_covariance.h"
 #include "ident/flight/fit/hover_priors.h"
@@ -271,6 +272,7 @@ class Search {
 
 SearchResult search_causes(const FlightRecord& record, const Vehicle& vehicle, const std::vector<double>& p,
                            const SearchOptions& options) {
+  const Stage stage("search");
   return Search(record, vehicle, p, options).run();
 }
 

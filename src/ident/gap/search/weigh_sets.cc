@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "ident/core/stage_times.h"
 #include "ident/gap/search/further.h"
 
 namespace ident {
@@ -37,6 +38,7 @@ double log_odds(const Standing& at, const std::vector<int>& one, const std::vect
 }
 
 std::vector<WeighedSet> weighed_sets(const Standing& at) {
+  const Stage stage("sets weighed");
   std::vector<WeighedSet> out;
   const int n = static_cast<int>(at.problem.candidates.size());
   std::vector<std::vector<int>> sets{{}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/stage_times.h"
 #include "ident/flight/record/excerpts.h"
 #include "ident/gap/search/further.h"
 
@@ -79,6 +80,7 @@ bool lag_as_stated(const FittedModel& model) {
 std::optional<WrongLag> wrong_lag(const FlightRecord& record, const std::vector<double>& p,
                                   const FittedModel& at_hand, const ExtendedProblem& problem,
                                   const QuadraticForm& form, const FlightFitOptions& options) {
+  const Stage stage("lag of the motors");
   const auto cause = std::ranges::find(problem.candidates, "parameter:omega_m", &Candidate::name);
   const auto adopted = [](const Candidate& c) { return c.name == "parameter:omega_m"; };
   if (cause == problem.candidates.end() || std::ranges::any_of(at_hand.adopted, adopted)) return {};
@@ -140,6 +142,7 @@ bool shows_more(const Standing& held, const Standing& at_hand, double costs) {
 }
 
 double cost_of_holding(const FlightRecord& record, const Standing& held, const Standing& at_hand) {
+  const Stage stage("lag of the motors");
   const NoiseModel& noise = held.form.noise;
   return misfit(record, held.model, noise) - misfit(record, at_hand.model, noise);
 }

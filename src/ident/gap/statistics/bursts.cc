@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/stage_times.h"
 #include "ident/core/statistics.h"
 #include "ident/flight/fit/input_sensitivity.h"
 
@@ -84,6 +85,7 @@ double spread_about(const std::vector<Jump>& jumps, std::size_t i, double overal
 }  // namespace
 
 std::vector<Burst> bursts(const FlightRecord& record, const FlightFit& fit) {
+  const Stage stage("what is left");
   static constexpr std::array names = {"Mx", "My", "Mz", "Fx", "Fy", "Fz"};
   std::vector<Burst> out;
   for (int axis = 0; axis < 6; ++axis) {

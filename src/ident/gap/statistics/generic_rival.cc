@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ident/core/parallel.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/conditioning/estimator_drift.h"
 #include "ident/gap/statistics/held_out_gain.h"
 
@@ -201,6 +202,7 @@ std::string Rival::strongest() const {
 
 Rival generic_rival(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
                     const NoiseModel& floor) {
+  const Stage stage("regression on what is left");
   Rival rival;
   FlightSmoother smoother(record, theta, floor, std::max(fit.chunk_seconds, kChunk));
   if (smoother.chunks().size() < 60) return rival;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/core/stage_times.h"
+
 namespace ident {
 namespace {
 
@@ -178,6 +180,7 @@ VectorXd ResidualWrench::excess() const {
 
 ResidualWrench residual_wrench(const FlightRecord& record, const Theta& theta, const FlightFit& fit,
                                const NoiseModel& floor) {
+  const Stage stage("what is left");
   return WrenchRows(record, theta, fit, floor).all();
 }
 

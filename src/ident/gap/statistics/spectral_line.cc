@@ -8,6 +8,7 @@
 
 #include "ident/core/parallel.h"
 #include "ident/core/periodograms.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/conditioning/estimator_drift.h"
 #include "ident/flight/conditioning/rotor_tones.h"
 
@@ -115,6 +116,7 @@ double mean_turns(const FlightRecord& record, const FlightFit& fit) {
 }  // namespace
 
 std::vector<SpectralLine> spectral_lines(const FlightRecord& record, const FlightFit& fit) {
+  const Stage stage("what is left");
   const auto residuals = fit.smoother->residuals();
   const auto& places = fit.smoother->chunks();
   const auto& states = fit.smoother->states();
