@@ -89,6 +89,7 @@ FlightArc make_arc(const FlightLog& log, const std::vector<double>& voltage, int
   inputs.t0 = log.t.front();
   if (log.has_commands()) {
     inputs.delta = command_history(log, arc.t.front() - kLongestDelay, arc.t.back());
+    inputs.jumps = command_jumps(log);
     for (std::size_t n = 0; n < log.Omega.size() && n < vehicle.rotors.size(); ++n)
       put(log.Omega[n], kRotorChannel + static_cast<int>(n));
   }

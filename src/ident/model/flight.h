@@ -22,6 +22,7 @@ inline constexpr double kLongStep = 10.5e-3;
 struct FlightInputs {
   double t0 = 0.0;                         ///< start of the log, s
   std::vector<HeldCommand> delta;          ///< per rotor; empty when rotor speeds are the input
+  std::vector<double> jumps;               ///< when commands change that are held for long in between, s
   std::vector<double> t;                   ///< times of the columns below
   std::vector<std::vector<double>> Omega;  ///< [rotor][row], used when `delta` is empty; interpolated
   std::vector<double> voltage_ratio;       ///< vbat over the voltage at which km holds; empty when not logged
@@ -76,6 +77,7 @@ class Flight {
   /// Order of the steps: 4, or 2 at half the cost.
   void step_to_order(int order) { order_ = order; }
   const S& sensor_delay() const { return delays_.sensor_delay; }
+  const S& command_delay() const { return delays_.command_delay; }
 
   /// Moves a state h seconds on; `rate` is that at its start, and then that at its end.
   void step_on(FlightState<S>& x, double t, double h, BodyRate<S>& rate) {
@@ -117,6 +119,26 @@ class Flight {
 
   /// Steady motor speeds for the command that holds at t: a start when nothing else is known.
   S steady_speed(std::size_t rotor, double t) const { return target(rotor, t, 1e-6).mean; }
+
+  /// Takes out of the motors' state at time t what dies away far within a step of h seconds: of motors with
+  /// two real poles the part of the fast one, Omega - T = A exp(slow t) + B exp(fast t). A step would carry B
+  /// on as a push that lasts for much of it.
+  void drop_fast_mode(std::array<MotorState<S>, kMaxRotors>& motors, double t, double h) const {
+    constexpr double kSettled = 20.0;  // time constants in a step
+    using std::sqrt;
+    const S &omega_m = p_[param::omega_m], &zeta_m = p_[param::zeta_m];
+    if (!inputs_->commanded() || !(value(zeta_m) > 1.0)) return;
+    const S root = sqrt(zeta_m * zeta_m - 1.0), slow = -(omega_m / (zeta_m + root)),
+            fast = -(omega_m * (zeta_m + root));
+    if (!(-h * value(fast) > kSettled)) return;
+    for (std::size_t n = 0; n < rotors_; ++n) {
+      MotorState<S>& motor = motors[n];
+      const S T = steady_speed(n, t), y = motor.Omega - T;
+      const S ratio = asymmetric_ && value(y) > 0 ? down_ratio_ : S(1.0);
+      motor.Omega = motor.Omega - (motor.Omega_dot - ratio * slow * y) / (ratio * (fast - slow));
+      motor.Omega_dot = ratio * slow * (motor.Omega - T);
+    }
+  }
 
   /// The motors alone, h seconds on.
   void advance(std::array<MotorState<S>, kMaxRotors>& motors, double t, double h) {

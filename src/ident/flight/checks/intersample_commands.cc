@@ -49,6 +49,7 @@ bool half_a_row_matters(const FlightRecord& record, std::span<const FlightLog> l
 FlightRecord along_lines(FlightRecord record, std::span<const FlightLog> logs) {
   for (FlightArc& arc : record.arcs) {
     FlightInputs inputs = *arc.inputs;
+    inputs.jumps.clear();
     inputs.delta = commands_along_lines(logs[static_cast<std::size_t>(arc.log)], arc.t.front() - kHistory,
                                         arc.t.back(), kSteps);
     arc.inputs = std::make_shared<const FlightInputs>(std::move(inputs));

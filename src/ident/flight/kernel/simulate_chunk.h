@@ -38,6 +38,7 @@ class ChunkRun {
     delay_beyond_ = flight_.sensor_delay() - task_.shift;
     delayed_ = !is_identically_zero(delay_beyond_);
     const std::size_t last = task_.end;
+    flight_.drop_fast_mode(x.motors, t[task_.begin], t[task_.begin + 1] - t[task_.begin]);
     BodyRate<S> rate = flight_.rate(x, t[task_.begin]);
     std::size_t delayed_row = first_delayed_row();
     for (std::size_t i = task_.begin, next = i; i < last; i = next) {
@@ -81,11 +82,27 @@ class ChunkRun {
     return long_steps() && kLongStep > task_.max_step ? kLongStep : task_.max_step;
   }
 
-  // The row up to which one step reaches.
+  // The row up to which one step reaches. None reaches over several rows where commands jump, nor right
+  // after: a jump acts as a line over its step, and at the end of that line fast motors change their speed
+  // otherwise than after the jump.
   std::size_t row_after(std::size_t i) const {
     std::size_t next = i + 1;
-    while (long_steps() && next < task_.end && task_.t[next + 1] - task_.t[i] < longest_step()) ++next;
+    if (!long_steps()) return next;
+    const double least = next_jump(i > 0 ? task_.t[i - 1] : task_.t[i]);
+    const double to = least < task_.t[i] + longest_step() ? least : task_.t[i] + longest_step();
+    while (next < task_.end && task_.t[next + 1] < to) ++next;
     return next;
+  }
+
+  // When motors feel the first jump of the commands after t; without one, never.
+  double next_jump(double t) const {
+    const std::vector<double>& jumps = task_.inputs->jumps;
+    const std::size_t n = jumps.size();
+    if (n == 0) return 1e300;
+    const double delay = value(flight_.command_delay());
+    const std::size_t before = row_before<S>(jumps.data(), n, t - delay);
+    const std::size_t next = jumps.data()[before] > t - delay ? before : before + 1;
+    return next < n ? jumps.data()[next] + delay : 1e300;
   }
 
   // Predicts the rows that lie within one step.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "ident/data/sampling.h"
-#include "ident/io/simulators/lost.h"
+#include "ident/model/flight.h"
 
 namespace ident {
 namespace {
@@ -58,6 +58,15 @@ std::vector<HeldCommand> command_history(const FlightLog& log, double from, doub
     history.push_back(std::move(command));
   }
   return history;
+}
+
+std::vector<double> command_jumps(const FlightLog& log) {
+  constexpr double kHeld = 0.75;  // of a long step
+  const NewSamples anew = new_samples(log.t, log.delta);
+  if (!(anew.apart > kHeld * kLongStep)) return {};
+  std::vector<double> jumps;
+  for (const std::size_t row : anew.rows) jumps.push_back(log.t[row]);
+  return jumps;
 }
 
 std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps) {

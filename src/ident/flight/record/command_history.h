@@ -13,7 +13,15 @@ namespace ident {
 /// and after.
 std::vector<HeldCommand> command_history(const FlightLog& log, double from, double to);
 
-/// The same with commands that go along a line from one to the next, in so many steps.
+/// When the commands of a log change that are held from one change to the next for a long step of an
+/// estimator; none where they change more often.
+std::vector<double> command_jumps(const FlightLog& log);
+
+/// When the commands of a log change, s, where they are held for about a long step of an estimator
+/// (`kLongStep`) or more in between; empty where they change more often.
+std::vector<double> command_jumps(const FlightLog& log);
+
+/// The history with commands that go along a line from one to the next, in so many steps.
 std::vector<HeldCommand> commands_along_lines(const FlightLog& log, double from, double to, int steps);
 
 }  // namespace ident
