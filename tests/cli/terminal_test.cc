@@ -118,5 +118,14 @@ TEST(Terminal, NamesTheNearestWordOfAMistypedCommandOrOption) {
   EXPECT_NE(run_ident({"gap", "--exlude", "x"}).err.find("did you mean '--exclude'?"), std::string::npos);
 }
 
+TEST(Terminal, TimingGoesToStderrAndLeavesTheResultAsItIs) {
+  const std::string sweep = (kSample / "thrust_sweep.csv").string();
+  const ProgramRun plain = run_ident({"thrust", sweep}), timed = run_ident({"thrust", sweep, "--timing"});
+  EXPECT_EQ(timed.status, 0);
+  EXPECT_EQ(timed.out, plain.out);
+  EXPECT_NE(timed.err.find("report and outputs"), std::string::npos) << timed.err;
+  EXPECT_NE(timed.err.find("s of processor time"), std::string::npos) << timed.err;
+}
+
 }  // namespace
 }  // namespace ident

@@ -108,5 +108,46 @@ TEST(Flight, GustsTurnAsMomentsDo) {
   EXPECT_GT(std::abs(turned[2] - gust.w_dot_B[2]), 0.01);
 }
 
+// A motor of first order as a file states it: zeta_m = 50. Its fast pole settles in 2 us.
+struct FirstOrderMotors {
+  FirstOrderMotors() {
+    p[param::omega_m] = 2000.0, p[param::zeta_m] = 50.0;
+    for (std::size_t n = 0; n < 4; ++n) motors[n] = {350.0 + 20.0 * static_cast<double>(n), 4e4};
+  }
+  const Vehicle v = small_quad();
+  std::vector<double> p = parameter_vector(v);
+  const NoEffects none{};
+  const FlightInputs in = commands(0.5);
+  std::array<MotorState<double>, kMaxRotors> motors{};
+  Flight<double> flight() { return {v, p, none, in}; }
+};
+
+TEST(Flight, WithoutItsFastModeAMotorGoesWhereItWouldHaveGone) {
+  FirstOrderMotors first;
+  Flight<double> flight = first.flight();
+  auto with = first.motors, without = first.motors;
+  flight.drop_fast_mode(without, 0.1, 0.0025);
+  EXPECT_GT(std::abs(without[0].Omega - with[0].Omega), 0.1);  // 4e4/2e5 rad/s of it dies away
+  flight.advance(with, 0.1, 5e-4), flight.advance(without, 0.1, 5e-4);
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_NEAR(with[n].Omega, without[n].Omega, 1e-8);
+    EXPECT_NEAR(with[n].Omega_dot, without[n].Omega_dot, 1e-6);
+  }
+  auto again = without;
+  flight.drop_fast_mode(again, 0.1005, 0.0025);
+  EXPECT_NEAR(again[0].Omega, without[0].Omega, 1e-8);  // there is none any more
+}
+
+TEST(Flight, AMotorOfSecondOrderKeepsItsState) {
+  FirstOrderMotors second;
+  second.p[param::omega_m] = 25.0, second.p[param::zeta_m] = 1.5;
+  auto motors = second.motors;
+  second.flight().drop_fast_mode(motors, 0.1, 0.0025);
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_EQ(motors[n].Omega, second.motors[n].Omega);
+    EXPECT_EQ(motors[n].Omega_dot, second.motors[n].Omega_dot);
+  }
+}
+
 }  // namespace
 }  // namespace ident

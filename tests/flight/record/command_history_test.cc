@@ -8,7 +8,6 @@
 #include "ident/core/random.h"
 #include "ident/flight/refine.h"
 #include "ident/flight/refine_without_motor_cutoff.h"
-#include "ident/io/simulators/lost.h"
 #include "support/known_quad.h"
 
 namespace ident {
@@ -107,6 +106,17 @@ TEST(CommandHistory, ALogWithHolesGivesUnbiasedMotorsAndInertia) {
       EXPECT_LT(std::abs(p.value - testing::quad().value(name)), 4 * p.std) << name;
     }
   }
+}
+
+TEST(CommandHistory, CommandsJumpWhereTheyAreHeldForLong) {
+  FlightLog log = at_times(hundredths(400));
+  EXPECT_EQ(command_jumps(log).size(), 400u);  // a new one every 10 ms
+  for (std::size_t i = 0; i < log.t.size(); ++i) log.t[i] = 0.0025 * static_cast<double>(i);
+  EXPECT_TRUE(command_jumps(log).empty());
+  for (std::size_t i = 0; i < log.t.size(); ++i) log.delta[0][i] = log.delta[0][i - i % 10];
+  const std::vector<double> jumps = command_jumps(log);  // one in ten rows brings one
+  ASSERT_GE(jumps.size(), 39u);
+  for (std::size_t k = 1; k < jumps.size(); ++k) EXPECT_NEAR(jumps[k] - jumps[k - 1], 0.025, 1e-9);
 }
 
 }  // namespace

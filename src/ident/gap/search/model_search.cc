@@ -251,14 +251,15 @@ class Search {
 
   // Beside a strong cause a true one is a small share of what is explained, and most of what is left: of what
   // a regression on the flight still predicts.
-  bool leaves_little_to_predict(const Standing& there) const {
+  bool leaves_little_to_predict(const Standing& there) {
     const auto left = [&](const Standing& at) {
-      return generic_rival(s_.record, *at.model.theta, at.model.fit, there.form.noise);
+      return generic_rival(s_.record, *at.model.theta, at.model.fit, s_.now.form.noise);
     };
-    const Rival before = left(s_.now);
-    if (!(before.total() > kPredicted)) return false;
+    if (predicted_of_ != s_.now.model.fit.smoother) predicted_ = left(s_.now).total();
+    predicted_of_ = s_.now.model.fit.smoother;
+    if (!(predicted_ > kPredicted)) return false;
     const Rival after = left(there);
-    return after.judged && after.total() < kMostOfIt * before.total();
+    return after.judged && after.total() < kMostOfIt * predicted_;
   }
 
   SearchState s_;
@@ -266,6 +267,8 @@ class Search {
   LookedAt looked_at_;
   std::optional<Standing> free_;  // the model as it is, where its lag was held
   std::size_t steps_before_mass_ = 0;
+  double predicted_ = 0;  // by a regression on the flight, of what this model leaves
+  std::shared_ptr<FlightSmoother> predicted_of_;
 };
 
 }  // namespace

@@ -70,11 +70,12 @@ Share left_by(const std::vector<std::string>& named, const GapShares& shares) {
 // Whether a cause closes some of the gap of held-out flight beyond chance, named with causes that leave so
 // much. What does not is no cause of the gap, whatever its evidence on the flight that it was fitted to.
 // Where nothing material is left, shares are too small to tell; and what only changes readings moves no
-// vehicle.
-bool closes_some(const JudgedCause& cause, const Share& left) {
-  if (cause.evidence.seen || traits_of(cause.evidence.name).of_mounting ||
-      !std::isfinite(cause.share.value) || left.value < kMaterial)
-    return true;
+// vehicle. Where constants alone come down to the floor there is nothing to share: beside something else its
+// evidence may be that one's.
+bool closes_some(const JudgedCause& cause, const Share& left, bool something_else) {
+  if (cause.evidence.seen || traits_of(cause.evidence.name).of_mounting) return true;
+  if (!std::isfinite(cause.share.value)) return !something_else;
+  if (left.value < kMaterial) return true;
   return cause.share.ci95[0] > 0 && left.value < 1;
 }
 
@@ -89,12 +90,13 @@ Judged judge(const Seen& seen) {
   out.rest = discrepancy({seen.gap, seen.rival, seen.lines, seen.jumps, seen.unsteady,
                           seen.search.explained(), left_by_form(seen.search), of_drive,
                           out.causes.empty() ? 1.0 : seen.shares.remaining.value});
+  const bool something_else = out.rest.probability >= kClaimed;
   for (const JudgedCause& cause : out.causes)
     if (cause.right >= kNamed && cause.in_sets >= kTold) out.effects.push_back(cause.evidence.name);
   const Share left = left_by(out.effects, seen.shares);
   std::vector<std::string> closing;  // of all found
   for (const JudgedCause& cause : out.causes)
-    if (closes_some(cause, left)) closing.push_back(cause.evidence.name);
+    if (closes_some(cause, left, something_else)) closing.push_back(cause.evidence.name);
   std::erase_if(out.effects, [&](const std::string& name) { return !is_among(name, closing); });
   std::vector<std::string> found, by_sets;
   for (const JudgedCause& cause : out.causes) {
@@ -110,7 +112,6 @@ Judged judge(const Seen& seen) {
                 [&](const std::string& name) { return is_among(name, found) && !is_among(name, closing); });
   out.remaining = left_by(out.effects, seen.shares);
   out.findings = contradictions(seen.fitted, found);
-  const bool something_else = out.rest.probability >= kClaimed;
   if (out.effects.empty()) {
     const bool claimed =
         something_else || !out.causes.empty() || !seen.search.ran_away.empty() || !out.findings.empty();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "ident/core/format_number.h"
 #include "ident/effects/cause_traits.h"
@@ -14,6 +15,8 @@
 namespace ident {
 namespace {
 
+constexpr double kMostOfIt = 0.5;  // share of the gap, for words only
+
 std::string percent(const Share& share) {
   const auto in_100 = [](double x) { return std::round(100 * x) + 0.0; };  // no -0
   if (!std::isfinite(share.ci95[0])) return fmt::format("{:.0f} %", in_100(share.value));
@@ -21,8 +24,16 @@ std::string percent(const Share& share) {
                      in_100(share.ci95[1]));
 }
 
-// "battery_sag (77 % [70, 84] of the gap) and rotor_drag".
-std::string named(const Judged& verdict) {
+// Share of the gap that constants close, refitted within what is known of them: the causes share the rest.
+double closed_by_constants(const Seen& seen) {
+  const auto square = [](double x) { return x * x; };
+  const double floor = square(seen.gap.floor), before = square(seen.gap.before) - floor,
+               rest = square(seen.shares.without_causes) - floor;
+  return before > kMaterial * floor && std::isfinite(rest) ? 1 - std::max(rest, 0.0) / before : 0;
+}
+
+// "battery_sag (77 % [70, 84] of the gap) and rotor_drag". `of`: what they share.
+std::string named(const Judged& verdict, std::string_view of) {
   std::vector<std::string> out;
   for (const std::string& name : verdict.effects) {
     out.push_back(name);
@@ -30,7 +41,7 @@ std::string named(const Judged& verdict) {
       if (cause.evidence.name == name && std::isfinite(cause.share.value))
         out.back() += traits_of(name).of_mounting && cause.share.value < kMaterial
                           ? " (changes readings, not the flight)"
-                          : fmt::format(" ({} of the gap)", percent(cause.share));
+                          : fmt::format(" ({} of the {})", percent(cause.share), of);
   }
   return fmt::format("{}", fmt::join(out, " and "));
 }
@@ -86,16 +97,23 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
   } else if (verdict.status == "unknown") {
     out = unknown(verdict, seen);
   } else {
-    const std::string causes = named(verdict);
-    if (verdict.status == "identified")
-      out = fmt::format("The gap is explained by {}.", causes);
-    else if (verdict.status == "partly")
-      out = fmt::format("There is {}, and something else is left.", causes);
+    const double by_constants = closed_by_constants(seen);
+    const bool mostly = by_constants > kMostOfIt;
+    if (mostly)
+      out = fmt::format("Constants, refitted within what is known of them, close {:.0f} % of the gap. ",
+                        std::floor(100 * by_constants));
+    const std::string_view of = mostly ? "rest" : "gap";
+    const std::string causes = named(verdict, of);
+    if (verdict.status == "partly")
+      out += fmt::format("There is {}, and something else is left.", causes);
+    else if (verdict.status == "identified")
+      out += verdict.remaining.value > kMostOfIt ? fmt::format("There is {}.", causes)
+                                                 : fmt::format("The {} is explained by {}.", of, causes);
     else
-      out = fmt::format("The gap is explained by {}, but {} would explain it about as well.", causes,
-                        fmt::join(verdict.confused_with, " or "));
+      out += fmt::format("The {} is explained by {}, but {} would explain it about as well.", of, causes,
+                         fmt::join(verdict.confused_with, " or "));
     if (verdict.remaining.value > kMaterial)
-      out += fmt::format(" {} of the gap remains{}.", percent(verdict.remaining),
+      out += fmt::format(" {} of the {} remains{}.", percent(verdict.remaining), of,
                          verdict.status == "identified" ? ", which is not told from gusts and noise" : "");
     std::vector<std::string> like;
     for (const JudgedCause& cause : verdict.causes)
