@@ -81,10 +81,12 @@ Action gap_command(CLI::App& cli) {
       ->delimiter(',')
       ->type_name("EFFECT,...");
   cli.add_option("--write-params", options->write_params, "the vehicle with the causes found, as a file")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->each(require_folder_of);
   cli.add_option("--fix", options->fix,
                  "the file of --vehicle, a simulator's too, with the values that were identified")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->each(require_folder_of);
   cli.add_option("--simulated", options->simulated,
                  "logs of a simulator, flown by its own commands: what differs from the real ones")
       ->type_name("LOG");

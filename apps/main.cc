@@ -30,7 +30,10 @@ Registered add(CLI::App& program, const std::string& name, const std::string& su
   if (cli->get_option_no_throw("--report") != nullptr) return {cli, action, shared};  // its own
   cli->add_option("--report", shared->report, "write a report: .html, .md or .json")
       ->type_name("FILE")
-      ->each([](const std::string& path) { report_form(path); });  // refused before the work, not after
+      ->each([](const std::string& path) {  // refused before the work, not after
+        report_form(path);
+        require_folder_of(path);
+      });
   return {cli, action, shared};
 }
 

@@ -67,7 +67,8 @@ Action report_command(CLI::App& cli) {
   CLI::Option* output =
       cli.add_option("--output,--report", options->output,
                      "where to write: .html, .md or .json; report.html and report.md without it")
-          ->type_name("FILE");
+          ->type_name("FILE")
+          ->each(require_folder_of);
   cli.add_option("--vehicle", options->vehicle, "only list the parameters of a vehicle or parameter file")
       ->type_name("FILE")
       ->excludes(output);

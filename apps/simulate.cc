@@ -15,7 +15,10 @@ void add_simulate_options(CLI::App& cli, SimulateOptions& options) {
   cli.add_option("--vehicle", options.vehicle, "vehicle file; effects under its parameters act")
       ->type_name("FILE")
       ->required();
-  cli.add_option("--output", options.output, "file to write, CSV")->type_name("FILE")->required();
+  cli.add_option("--output", options.output, "file to write, CSV")
+      ->type_name("FILE")
+      ->required()
+      ->each(require_folder_of);
   cli.add_option("--precision", options.digits, "plain, or full: numbers that read back exactly")
       ->check(CLI::IsMember({"plain", "full"}))
       ->capture_default_str();

@@ -127,5 +127,16 @@ TEST(Terminal, TimingGoesToStderrAndLeavesTheResultAsItIs) {
   EXPECT_NE(timed.err.find("s of processor time"), std::string::npos) << timed.err;
 }
 
+TEST(Terminal, AFolderThatIsNotThereIsToldBeforeTheWork) {
+  for (const std::vector<std::string>& output :
+       {std::vector<std::string>{"--report", "no/such/r.html"}, {"--write-params", "no/such/v.yaml"}}) {
+    std::vector<std::string> arguments{"gap", "no_such_log.csv"};
+    arguments.insert(arguments.end(), output.begin(), output.end());
+    const ProgramRun run = run_ident(arguments);
+    EXPECT_NE(run.status, 0);
+    EXPECT_NE(run.err.find("there is no folder no/such to write it into"), std::string::npos) << run.err;
+  }
+}
+
 }  // namespace
 }  // namespace ident

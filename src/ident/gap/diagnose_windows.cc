@@ -2,7 +2,6 @@
 #include "ident/gap/diagnose_windows.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <memory>
 
 #include "ident/core/stage_times.h"
+#include "ident/core/word_list.h"
 #include "ident/flight/checks/gusts_expected.h"
 #include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fitted_parameters.h"
@@ -159,7 +159,7 @@ std::string sentence_of(const Side& moments) {
   if (moments.explained()) return moments.verdict.sentence;
   std::string out = "What was logged of the rotors does not explain how the vehicle turned: inertia is open.";
   if (moments.verdict.effects.empty()) return out;
-  return fmt::format("There is {}. {}", fmt::join(moments.verdict.effects, " and "), out);
+  return fmt::format("There is {}. {}", listed(moments.verdict.effects), out);
 }
 
 // What both sides say. Of a side that is not sure beside one that is, only the sentence speaks.

@@ -2,12 +2,12 @@
 #include "ident/gap/comparison/compared_fit.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 
 #include "ident/core/error.h"
+#include "ident/core/word_list.h"
 #include "ident/effects/cause_traits.h"
 #include "ident/flight/fit/fit_covariance.h"
 #include "ident/flight/fit/hover_priors.h"
@@ -97,8 +97,8 @@ ComparedFit compared_fit(const Vehicle& vehicle, std::span<const FlightLog> logs
   if (!stands(all)) {
     std::vector<std::string> names;
     for (const Candidate& c : causes) names.push_back(c.name);
-    throw DataError(fmt::format("{}: no model with {} can be flown along this log", logs.front().file,
-                                fmt::join(names, " and ")));
+    throw DataError(
+        fmt::format("{}: no model with {} can be flown along this log", logs.front().file, listed(names)));
   }
   search.fit.tolerance_of_misfit = 0, search.fit.tolerance = kUnseen;
   all.fit.smoother->set_steps(Steps::fine);

@@ -2,6 +2,7 @@
 #include "ident/gap/evidence/evidence.h"
 
 #include "ident/core/stage_times.h"
+#include "ident/core/word_list.h"
 #include "ident/views/prediction_traces.h"
 
 namespace ident {
@@ -10,9 +11,9 @@ namespace {
 constexpr std::size_t kChannelsShown = 2;
 
 std::string name_of_found(const FittedModel& best) {
-  std::string names;
-  for (const Candidate& cause : best.adopted) names += (names.empty() ? "with " : " and ") + described(cause);
-  return names.empty() ? "refitted" : names;
+  std::vector<std::string> names;
+  for (const Candidate& cause : best.adopted) names.push_back(described(cause));
+  return names.empty() ? "refitted" : "with " + listed(names);
 }
 
 }  // namespace

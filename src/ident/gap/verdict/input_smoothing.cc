@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ident/core/word_list.h"
 #include "ident/flight/fit/fit_covariance.h"
 
 namespace ident {
@@ -73,11 +74,11 @@ Judged with_noisy_input(Judged verdict, const std::vector<std::string>& loose,
   for (const std::string& name : verdict.effects)
     if (gap.after >= gap.before || std::ranges::find(loose, name) != loose.end()) against.push_back(name);
   if (!against.empty()) {
-    verdict.sentence = fmt::format(
-        "{} {} not named: {}. {}", fmt::join(against, " and "), against.size() == 1 ? "is" : "are",
-        gap.after >= gap.before ? "held-out flight is predicted no better with that"
-                                : "the size depends on how the rotor speeds are smoothed",
-        verdict.sentence);
+    verdict.sentence =
+        fmt::format("{} {} not named: {}. {}", listed(against), against.size() == 1 ? "is" : "are",
+                    gap.after >= gap.before ? "held-out flight is predicted no better with that"
+                                            : "the size depends on how the rotor speeds are smoothed",
+                    verdict.sentence);
     verdict = unnamed(std::move(verdict), against);
   }
   if (verdict.status == "unknown")

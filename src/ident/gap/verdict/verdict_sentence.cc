@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "ident/core/format_number.h"
+#include "ident/core/word_list.h"
 #include "ident/effects/cause_traits.h"
 #include "ident/gap/verdict/decision.h"
 
@@ -43,7 +44,7 @@ std::string named(const Judged& verdict, std::string_view of) {
                           ? " (changes readings, not the flight)"
                           : fmt::format(" ({} of the {})", percent(cause.share), of);
   }
-  return fmt::format("{}", fmt::join(out, " and "));
+  return listed(out);
 }
 
 std::string left(const Judged& verdict) {
@@ -119,7 +120,7 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
     for (const JudgedCause& cause : verdict.causes)
       if (std::ranges::find(verdict.effects, cause.evidence.name) == verdict.effects.end())
         like.push_back(cause.evidence.name);
-    if (!like.empty()) out += fmt::format(" Part of what is left acts like {}.", fmt::join(like, " and "));
+    if (!like.empty()) out += fmt::format(" Part of what is left acts like {}.", listed(like));
     if (verdict.status != "identified") out += left(verdict);
   }
   for (const Contradiction& one : verdict.findings) out += " Beside that, " + in_words(one) + ".";

@@ -77,32 +77,45 @@ std::string band_name(const Json& band) {
 Plot waterfall_plot(const Json& found, const std::string& causes) {
   const Json& gap = found["gap"];
   const double before = number(gap["before"]), after = number(gap["after"]);
-  const std::string step = causes.empty() ? "refit" : causes;
-  return {
-      .id = "waterfall",
-      .title = "Prediction error over 0.5 s on held-out flight",
-      .caption = "In units of the sensors' noise; a perfect model would still show the noise floor.",
-      .y_label = "error over sensor noise [-]",
-      .series = {{.name = "error", .x = {0, 2}, .y = {before, after}, .style = Style::bars},
-                 {.name = "change", .x = {1}, .y = {after}, .y2 = {before}, .style = Style::bars},
-                 {.name = "noise floor", .x = {3}, .y = {number(gap["noise_floor"])}, .style = Style::bars}},
-      .column_names = {"model as given", step, "left", "noise floor"}};
+  const double refitted = gap.contains("without_causes") ? number(gap["without_causes"]) : before;
+  Plot plot{.id = "waterfall",
+            .title = "Prediction error over 0.5 s on held-out flight",
+            .caption = "In units of the sensors' noise; a perfect model would still show the noise floor.",
+            .y_label = "error over sensor noise [-]",
+            .column_names = {"model as given"}};
+  Series error{.name = "error", .x = {0}, .y = {before}, .style = Style::bars},
+      change{.name = "change", .style = Style::bars}, floor{.name = "noise floor", .style = Style::bars};
+  const auto column = [&](const std::string& name) {
+    plot.column_names.push_back(name);
+    return static_cast<double>(plot.column_names.size() - 1);
+  };
+  const auto step = [&](const std::string& name, double from, double to) {
+    change.x.push_back(column(name)), change.y.push_back(to), change.y2.push_back(from);
+  };
+  const bool by_constants = !causes.empty() && std::isfinite(refitted) && refitted != before;
+  if (by_constants) step("constants refitted", before, refitted);
+  step(causes.empty() ? "constants refitted" : causes, by_constants ? refitted : before, after);
+  error.x.push_back(column("left")), error.y.push_back(after);
+  floor.x.push_back(column("noise floor")), floor.y.push_back(number(gap["noise_floor"]));
+  plot.series = {std::move(error), std::move(change), std::move(floor)};
+  return plot;
 }
 
 Plot shares_plot(const Json& found) {
-  Plot plot{.id = "shares",
-            .title = "What each cause closes of the gap",
-            .caption =
-                "Of the squared error on held-out flight beyond the floor: Shapley values, with 95 % "
-                "intervals over blocks of flight.",
-            .y_label = "share of the gap [%]"};
+  Plot plot{
+      .id = "shares",
+      .title = "What each cause closes",
+      .caption =
+          "Of the squared error on held-out flight beyond the floor, constants refitted: Shapley values, "
+          "with 95 % intervals over blocks of flight.",
+      .y_label = "share [%]"};
   Series bars{.name = "share", .style = Style::bars}, steps{.name = "closed", .style = Style::bars},
       intervals{.name = "95 % interval", .style = Style::points};
   const auto column = [&](const std::string& name) {
     plot.column_names.push_back(name);
     return static_cast<double>(plot.column_names.size() - 1);
   };
-  bars.x.push_back(column("model as given")), bars.y.push_back(100);
+  bars.x.push_back(column("without causes")), bars.y.push_back(100);
   double level = 100;
   const auto add_interval = [&](double x, double at, const Json& ci95) {
     intervals.x.push_back(x), intervals.y.push_back(at);

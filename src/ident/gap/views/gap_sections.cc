@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ident/core/format_number.h"
+#include "ident/core/word_list.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/effects/catalogue.h"
 #include "ident/gap/statistics/by_channel.h"
@@ -99,8 +100,8 @@ Table motion_table(const Json& gap) {
 
 // Each cause named: is it there, and what does it close; and what is left.
 Table share_table(const Json& found) {
-  Table table{.title = "What closes the gap",
-              .columns = {"", "probability", "share of the gap [%]", "95 % interval"}};
+  Table table{.title = "What closes the gap that refitted constants leave",
+              .columns = {"", "probability", "share [%]", "95 % interval"}};
   const auto row = [&](const std::string& name, const Json& probability, const Json& share,
                        const Json& ci95) {
     const double p = number_of(probability);
@@ -112,9 +113,7 @@ Table share_table(const Json& found) {
   const Json& verdict = found["verdict"];
   if (verdict.contains("remaining") && verdict["remaining"].is_object() && !table.rows.empty()) {
     const Json& left = verdict["remaining"];
-    const std::string what = left["description"];
-    row(what.empty() ? "what is left" : "what is left: " + what, left["probability"], left["share"],
-        left["share_ci95"]);
+    row("what is left", left["probability"], left["share"], left["share_ci95"]);
   }
   return table;
 }
@@ -295,7 +294,7 @@ Section traces(const ResidualWrench& before, const ResidualWrench& after) {
 
 std::vector<Section> gap_sections(const Json& found, const ResidualWrench& before,
                                   const ResidualWrench& after, const GapEvidence& evidence) {
-  const std::string causes = fmt::format("{}", fmt::join(causes_of(found), " and "));
+  const std::string causes = listed(causes_of(found));
   std::vector<Section> sections;
   const Json& gap = found["gap"];
   // None: nothing can be simulated, or no flight was left to try it on.

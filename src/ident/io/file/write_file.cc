@@ -74,6 +74,13 @@ fs::path behind_links(const std::string& path) {
 
 }  // namespace
 
+void require_folder_of(const std::string& path) {
+  std::error_code error;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    throw OutputError(fmt::format("{}: there is no folder {} to write it into", path, folder.string()));
+}
+
 struct Outputs::Pending {
   std::string path, content;
   fs::path target, temporary;

@@ -12,6 +12,10 @@ namespace ident {
 /// Temporary files that a killed program left for the same target are removed. A device is written directly.
 void write_whole(const std::string& path, std::string_view content);
 
+/// Throws OutputError where the folder of a file to be written is not there: known before the work, not
+/// after.
+void require_folder_of(const std::string& path);
+
 /// Several outputs of one command: all appear or none does. Nothing is visible before `commit`.
 class Outputs {
  public:
