@@ -9,11 +9,11 @@
 #include <memory>
 
 #include "ident/core/stage_times.h"
-#include "ident/core/word_list.h"
 #include "ident/flight/checks/gusts_expected.h"
 #include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fitted_parameters.h"
 #include "ident/flight/record/excerpts.h"
+#include "ident/gap/both_sides.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/motion_errors.h"
 #include "ident/gap/verdict/decision.h"
@@ -29,24 +29,6 @@ namespace ident {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kExplains = 0.7;  // of what was gained: half of its square is explained
-
-// Of forces or of moments: what was found, and what is said of it.
-struct Side {
-  Side(const FlightRecord& record, FitTo what, std::vector<std::string> settled)
-      : model(record, what, std::move(settled)) {}
-  WindowModel model;
-  WindowSearch search;
-  std::vector<Parameter> parameters;
-  WindowShares shares;
-  Judged verdict;
-  GapClosed gap;
-
-  double missed = 0;  // share of the rates gained over a window that the model misses; 0 of forces
-
-  bool explained() const { return missed < kExplains; }
-};
 
 // Of the rates gained over windows, the share that a model misses; of no model at all 1.
 double missed_share(const WindowModel& model, double missed) {
@@ -67,22 +49,6 @@ GapClosed closed_of(const WindowShares& of) {
   return out;
 }
 
-// Causes that forces can tell, whether or not they were found there.
-std::vector<std::string> tried_on(const Side& side) {
-  std::vector<std::string> names;
-  for (const Candidate& c : side.search.result.base_problem.candidates) names.push_back(c.name);
-  return names;
-}
-
-// Whether windows of that side tell something of a constant.
-bool is_told(const Side& side, const std::string& name) {
-  const ExtendedProblem& problem = side.search.result.problem;
-  for (int i = 0; i < problem.base; ++i)
-    if (problem.constants[static_cast<std::size_t>(i)].name == name)
-      return side.search.result.form.S(i, i) >= kHidden;
-  return false;
-}
-
 // Of an ambiguous verdict the causes that are certain by themselves, where there are such: what else could be
 // in the place of the others takes nothing from them.
 Judged settled(Judged verdict) {
@@ -94,6 +60,13 @@ Judged settled(Judged verdict) {
   if (certain.effects.empty()) return verdict;
   certain.status = "partly";
   return certain;
+}
+
+// Causes that forces can tell, whether or not they were found there.
+std::vector<std::string> tried_on(const Side& side) {
+  std::vector<std::string> names;
+  for (const Candidate& c : side.search.result.base_problem.candidates) names.push_back(c.name);
+  return names;
 }
 
 // None where that side was not logged, or no model of it stands. Of what `told` tells, causes and constants,
@@ -119,95 +92,6 @@ std::unique_ptr<Side> diagnosed(const FlightRecord& record, FitTo what, const Ve
   if (what == FitTo::moments) side->missed = missed_share(side->model, side->shares.after);
   side->verdict = settled(judge({found, seen, side->shares.shares, rival, {}, {}, {}, side->parameters}));
   return side;
-}
-
-// Constants that forces tell keep what these say: moments are explained worse, and would bend them.
-std::vector<Parameter> all_parameters_of(const Side* forces, const Side* moments) {
-  if (!forces) return moments->parameters;
-  std::vector<Parameter> out = forces->parameters;
-  if (!moments) return out;
-  for (const Parameter& other : moments->parameters) {
-    const bool of_effect = other.name.find('.') != std::string::npos;
-    if (!moments->explained() && !of_effect) continue;
-    const auto known = std::ranges::find(out, other.name, &Parameter::name);
-    if (known == out.end())
-      out.push_back(other);
-    else
-      *known = other;
-  }
-  return out;
-}
-
-// What forces tell is not moved by moments.
-Vehicle held_at(Vehicle vehicle, const Side& forces) {
-  constexpr double kHeld = 0.01;  // of its deviation
-  for (auto& [name, known] : vehicle.parameters)
-    if (known.std && is_told(forces, name)) known.std = kHeld * *known.std;
-  vehicle.correlation = {};
-  return vehicle;
-}
-
-bool is_sure(const Judged& verdict) { return verdict.status == "identified" || verdict.status == "partly"; }
-
-void append(std::vector<std::string>& names, const std::vector<std::string>& more) {
-  for (const std::string& name : more)
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-}
-
-// Of inertia that inputs do not tell nothing is said.
-std::string sentence_of(const Side& moments) {
-  if (moments.explained()) return moments.verdict.sentence;
-  std::string out = "What was logged of the rotors does not explain how the vehicle turned: inertia is open.";
-  if (moments.verdict.effects.empty()) return out;
-  return fmt::format("There is {}. {}", listed(moments.verdict.effects), out);
-}
-
-// What both sides say. Of a side that is not sure beside one that is, only the sentence speaks.
-Judged together(const Side* forces, const Side* moments) {
-  if (!forces || !moments) return (forces ? forces : moments)->verdict;
-  const bool by_forces = !forces->verdict.effects.empty() || moments->verdict.effects.empty();
-  Judged out = by_forces ? forces->verdict : moments->verdict;
-  const Judged other = by_forces ? moments->verdict : forces->verdict;
-  std::ranges::copy(other.causes, std::back_inserter(out.causes));
-  if (moments->explained())
-    std::ranges::copy(other.findings, std::back_inserter(out.findings));
-  else if (!by_forces)
-    out.findings = other.findings;
-  const bool sure = is_sure(out) || is_sure(other);
-  if (sure && !is_sure(out)) out.effects.clear(), out.confused_with.clear();
-  if (is_sure(other) || (!sure && other.status == "ambiguous")) {
-    append(out.effects, other.effects);
-    append(out.confused_with, other.confused_with);
-  }
-  if (out.status != other.status)
-    out.status = sure ? "partly" : out.effects.empty() ? "unknown" : "ambiguous";
-  std::erase_if(out.confused_with, [&](const std::string& name) {
-    return std::ranges::find(out.effects, name) != out.effects.end();
-  });
-  out.sentence = "Forces: " + forces->verdict.sentence + " Moments: " + sentence_of(*moments);
-  return out;
-}
-
-// Whether moments tell a constant: their causes always, what else only where the inputs explain them.
-bool tells(const Side& moments, const Side* forces, const FreeConstant& c) {
-  return (moments.explained() || c.adopted) && !(forces && is_told(*forces, c.name));
-}
-
-// The vehicle with what either side found. Constants that forces tell stay what these say.
-Vehicle adopted_of(const Vehicle& vehicle, const Side* forces, const Side* moments) {
-  const auto by = [](const Side& side, const Vehicle& from) {
-    const SearchResult& found = side.search.result;
-    return adopted_vehicle(from, side.verdict.status == "none" ? found.base : found.best);
-  };
-  if (!forces) return by(*moments, vehicle);
-  Vehicle out = by(*forces, vehicle);
-  if (!moments) return out;
-  const Vehicle more = by(*moments, held_at(out, *forces));
-  for (const FreeConstant& c : moments->search.result.best.constants)
-    if (const auto at = more.parameters.find(c.name);
-        at != more.parameters.end() && tells(*moments, forces, c))
-      out.parameters[c.name] = at->second;
-  return out;
 }
 
 Json candidates_of(const Side* forces, const Side* moments, const Judged& verdict) {
@@ -337,11 +221,14 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
   result.extra["candidates"] = candidates_of(forces.get(), moments.get(), verdict);
   result.extra["not_tried"] = causes_not_tried(main.search.result, vehicle, options.exclude);
   const std::vector<std::array<double, 3>> no_bias(static_cast<std::size_t>(record.logs));
-  Json gap = gap_json(
-      motion_errors(held_out_of(record, kTrainingShare), {entry.p, out.trained, no_bias, record.sigma}));
+  const auto gap_of = [&](const std::vector<double>& found) {
+    return gap_json(
+        motion_errors(held_out_of(record, kTrainingShare), {entry.p, found, no_bias, record.sigma}));
+  };
+  Json gap = gap_of(out.trained);
   out.gap = closed_of(gap);
+  gap["without_causes"] = number_or_null(forces ? closed_of(gap_of(out.without_causes)).after : kNaN);
   result.extra["gap"] = std::move(gap);
-  result.extra["gap"]["without_causes"] = number_or_null(main.shares.shares.without_causes);
   result.sections = gap_sections(result.extra, before, after);
   result.sections.push_back(data_health(record, logs, initial_noise(record), entry.vibration));
   out.adopted = adopted_of(vehicle, forces.get(), moments.get());

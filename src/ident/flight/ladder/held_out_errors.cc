@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ident/core/parallel.h"
+#include "ident/core/stage_times.h"
 #include "ident/flight/ladder/model_along.h"
 #include "ident/flight/ladder/speeds_along.h"
 #include "ident/result/result.h"
@@ -154,6 +155,7 @@ std::vector<std::pair<WindowErrors, std::size_t>> empty_windows(const MeasuredMo
 }  // namespace
 
 std::vector<WindowErrors> held_out_errors(const MeasuredMotion& motion, std::span<const double> p) {
+  const Stage stage("held-out errors of plain models");
   auto windows = empty_windows(motion);
   const Prediction by{motion, p, model_along(motion, p), Effects(p, active_effects(p)),
                       motion.speeds ? measured_speeds(motion) : std::vector<std::vector<RotorSpeeds>>{}};

@@ -18,7 +18,6 @@ constexpr std::array kOfABody{param::m, param::kT, param::Jxx, param::Jyy, param
 constexpr std::array kInertia{param::Jxx, param::Jyy, param::Jzz};
 constexpr std::array kTurning{param::Jxx, param::Jyy, param::Jzz, param::kQ};
 constexpr double kAbsent = 0.01;           // of an effect's usual size: it is not there
-constexpr double kExplains = 0.7;          // of the error without a model: half of its square is explained
 constexpr double kRefusedByChance = 0.05;  // probability, of a model that is as good as those below
 constexpr double kLeastHeldOut = 1.5;      // s: a window of the longest horizon, and a second one
 

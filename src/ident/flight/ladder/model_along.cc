@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "ident/core/stage_times.h"
+
 namespace ident {
 namespace {
 
@@ -50,6 +52,7 @@ ModelAlong along(const MeasuredArc& measured, const Vehicle& vehicle, std::span<
 }  // namespace
 
 std::vector<ModelAlong> model_along(const MeasuredMotion& motion, std::span<const double> p) {
+  const Stage stage("plain model along the motion");
   std::vector<ModelAlong> all;
   for (const MeasuredArc& arc : motion.arcs) all.push_back(along(arc, *motion.record->vehicle, p));
   return all;

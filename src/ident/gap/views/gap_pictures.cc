@@ -77,7 +77,7 @@ std::string band_name(const Json& band) {
 Plot waterfall_plot(const Json& found, const std::string& causes) {
   const Json& gap = found["gap"];
   const double before = number(gap["before"]), after = number(gap["after"]);
-  const double refitted = gap.contains("without_causes") ? number(gap["without_causes"]) : before;
+  const double refitted = gap.contains("without_causes") ? number(gap["without_causes"]) : kNaN;
   Plot plot{.id = "waterfall",
             .title = "Prediction error over 0.5 s on held-out flight",
             .caption = "In units of the sensors' noise; a perfect model would still show the noise floor.",
@@ -92,7 +92,7 @@ Plot waterfall_plot(const Json& found, const std::string& causes) {
   const auto step = [&](const std::string& name, double from, double to) {
     change.x.push_back(column(name)), change.y.push_back(to), change.y2.push_back(from);
   };
-  const bool by_constants = !causes.empty() && std::isfinite(refitted) && refitted != before;
+  const bool by_constants = !causes.empty() && std::isfinite(refitted);
   if (by_constants) step("constants refitted", before, refitted);
   step(causes.empty() ? "constants refitted" : causes, by_constants ? refitted : before, after);
   error.x.push_back(column("left")), error.y.push_back(after);
