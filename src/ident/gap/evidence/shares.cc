@@ -60,6 +60,13 @@ std::array<double, 2> interval_of(std::vector<double> draws) {
 
 }  // namespace
 
+double closed_by_constants(const GapShares& shares, const GapClosed& gap) {
+  const double floor = gap.floor * gap.floor, before = gap.before * gap.before,
+               rest = shares.without_causes * shares.without_causes;
+  if (!(before > kNoGap * floor) || !std::isfinite(rest)) return 0;
+  return 1 - std::max(rest - floor, 0.0) / (before - floor);
+}
+
 std::vector<double> shapley_values(const std::vector<double>& errors) {
   const auto sets = static_cast<unsigned>(errors.size());
   const auto players = static_cast<std::size_t>(std::bit_width(sets) - 1);

@@ -29,6 +29,9 @@ struct GapShares {
   Share remaining;
 };
 
+/// Share of the gap that constants close, refitted within what was stated of them; 0 where there is no gap.
+double closed_by_constants(const GapShares& shares, const GapClosed& gap);
+
 /// Sums over the windows of a block of flight: the square of what each of 2^k sets of k causes misses, and of
 /// what a perfect model would.
 struct BlockErrors {

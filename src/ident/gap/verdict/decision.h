@@ -29,6 +29,9 @@ inline constexpr double kHeard = 0.05;
 /// Share of the gap from which what is left is spoken of. [-] Of a tenth an engineer would go on looking.
 inline constexpr double kMaterial = 0.1;
 
+/// Share from which something is most of the gap. [-] Half.
+inline constexpr double kMostly = 0.5;
+
 /// What the regression on the flight gains on flights that lack nothing, at most in one of a hundred. [fall
 /// of the cost] 400 flights without effect, tests/withheld seed 1919.
 inline constexpr double kRegressionByChance = 45.0;

@@ -16,21 +16,11 @@
 namespace ident {
 namespace {
 
-constexpr double kMostOfIt = 0.5;  // share of the gap, for words only
-
 std::string percent(const Share& share) {
   const auto in_100 = [](double x) { return std::round(100 * x) + 0.0; };  // no -0
   if (!std::isfinite(share.ci95[0])) return fmt::format("{:.0f} %", in_100(share.value));
   return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", in_100(share.value), in_100(share.ci95[0]),
                      in_100(share.ci95[1]));
-}
-
-// Share of the gap that constants close, refitted within what is known of them: the causes share the rest.
-double closed_by_constants(const Seen& seen) {
-  const auto square = [](double x) { return x * x; };
-  const double floor = square(seen.gap.floor), before = square(seen.gap.before) - floor,
-               rest = square(seen.shares.without_causes) - floor;
-  return before > kMaterial * floor && std::isfinite(rest) ? 1 - std::max(rest, 0.0) / before : 0;
 }
 
 // "battery_sag (77 % [70, 84] of the gap) and rotor_drag". `of`: what they share.
@@ -98,8 +88,8 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
   } else if (verdict.status == "unknown") {
     out = unknown(verdict, seen);
   } else {
-    const double by_constants = closed_by_constants(seen);
-    const bool mostly = by_constants > kMostOfIt;
+    const double by_constants = closed_by_constants(seen.shares, seen.gap);
+    const bool mostly = by_constants > kMostly;
     if (mostly)
       out = fmt::format("Constants, refitted within what is known of them, close {:.0f} % of the gap. ",
                         std::floor(100 * by_constants));
@@ -108,7 +98,7 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
     if (verdict.status == "partly")
       out += fmt::format("There is {}, and something else is left.", causes);
     else if (verdict.status == "identified")
-      out += verdict.remaining.value > kMostOfIt ? fmt::format("There is {}.", causes)
+      out += verdict.remaining.value > kMostly ? fmt::format("There is {}.", causes)
                                                  : fmt::format("The {} is explained by {}.", of, causes);
     else
       out += fmt::format("The {} is explained by {}, but {} would explain it about as well.", of, causes,
