@@ -99,7 +99,7 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
       out += fmt::format("There is {}, and something else is left.", causes);
     else if (verdict.status == "identified")
       out += verdict.remaining.value > kMostly ? fmt::format("There is {}.", causes)
-                                                 : fmt::format("The {} is explained by {}.", of, causes);
+                                               : fmt::format("The {} is explained by {}.", of, causes);
     else
       out += fmt::format("The {} is explained by {}, but {} would explain it about as well.", of, causes,
                          fmt::join(verdict.confused_with, " or "));
