@@ -124,7 +124,7 @@ class Flight {
   /// two real poles the part of the fast one, Omega - T = A exp(slow t) + B exp(fast t). A step would carry B
   /// on as a push that lasts for much of it.
   void drop_fast_mode(std::array<MotorState<S>, kMaxRotors>& motors, double t, double h) const {
-    constexpr double kSettled = 20.0;  // time constants in a step
+    constexpr double kSettled = 20.0;  // time constants in a step: exp(-20) is left
     using std::sqrt;
     const S &omega_m = p_[param::omega_m], &zeta_m = p_[param::zeta_m];
     if (!inputs_->commanded() || !(value(zeta_m) > 1.0)) return;

@@ -61,7 +61,7 @@ std::vector<HeldCommand> command_history(const FlightLog& log, double from, doub
 }
 
 std::vector<double> command_jumps(const FlightLog& log) {
-  constexpr double kHeld = 0.75;  // of a long step
+  constexpr double kHeld = 0.75;  // of a long step: changes that come every 8 ms or later
   const NewSamples anew = new_samples(log.t, log.delta);
   if (!(anew.apart > kHeld * kLongStep)) return {};
   std::vector<double> jumps;

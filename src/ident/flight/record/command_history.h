@@ -13,10 +13,6 @@ namespace ident {
 /// and after.
 std::vector<HeldCommand> command_history(const FlightLog& log, double from, double to);
 
-/// When the commands of a log change that are held from one change to the next for a long step of an
-/// estimator; none where they change more often.
-std::vector<double> command_jumps(const FlightLog& log);
-
 /// When the commands of a log change, s, where they are held for about a long step of an estimator
 /// (`kLongStep`) or more in between; empty where they change more often.
 std::vector<double> command_jumps(const FlightLog& log);

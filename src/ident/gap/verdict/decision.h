@@ -29,7 +29,7 @@ inline constexpr double kHeard = 0.05;
 /// Share of the gap from which what is left is spoken of. [-] Of a tenth an engineer would go on looking.
 inline constexpr double kMaterial = 0.1;
 
-/// Share from which something is most of the gap. [-] Half.
+/// Share from which a sentence speaks of most of the gap. [-] Half; it decides words only.
 inline constexpr double kMostly = 0.5;
 
 /// What the regression on the flight gains on flights that lack nothing, at most in one of a hundred. [fall
