@@ -11,18 +11,23 @@
 namespace ident {
 namespace {
 
+constexpr bool drives(int symbol) {
+  return symbol == param::km || symbol == param::Omega_0 || symbol == param::omega_m ||
+         symbol == param::zeta_m || symbol == param::dead_time;
+}
+
 std::vector<ParameterInfo> collect() {
   using enum ParameterKind;
   std::vector<ParameterInfo> list;
 #define IDENT_PARAMETER(symbol, unit, null_value, kind, meaning) \
-  list.push_back({#symbol, unit, null_value, kind, meaning, param::symbol});
+  list.push_back({#symbol, unit, null_value, kind, meaning, param::symbol, drives(param::symbol)});
 #include "ident/model/base_parameters.def"
 #undef IDENT_PARAMETER
   for (const EffectEntry& effect : catalogue()) {
     int index = effect.offset;
     for (const EffectParameter& p : effect.parameters) {
       list.push_back({std::string(effect.info.name) + "." + std::string(p.name), std::string(p.unit),
-                      p.null_value, real, std::string(effect.info.name), index++});
+                      p.null_value, real, std::string(effect.info.name), index++, effect.drives});
     }
   }
   return list;

@@ -17,6 +17,7 @@ struct ParameterInfo {
   ParameterKind kind = ParameterKind::real;
   std::string meaning;
   int index = 0;
+  bool drives = false;  ///< acts on how rotors turn for their commands
 };
 
 /// Every constant, in the order of the parameter vector.

@@ -9,10 +9,17 @@
 namespace ident {
 namespace {
 
+template <class Effect>
+constexpr bool drives() {
+  return requires(const double* p, DriveSeam<double>& drive) { Effect::apply(p, drive); }
+  || requires(const double* p, TimeSeam<double>& time) { Effect::apply(p, time); };
+}
+
 const std::vector<EffectEntry>& entries() {
   static const std::vector<EffectEntry> list = {
-#define IDENT_EFFECT(file, Type) \
-  {EffectId::file, Type::info, Type::parameters, kEffectOffset[static_cast<std::size_t>(EffectId::file)]},
+#define IDENT_EFFECT(file, Type)                                                                          \
+  {EffectId::file, Type::info, Type::parameters, kEffectOffset[static_cast<std::size_t>(EffectId::file)], \
+   drives<Type>()},
 #include "ident/effects/effects.def"
 #undef IDENT_EFFECT
   };

@@ -48,7 +48,8 @@ struct EffectEntry {
   EffectId id;
   EffectInfo info;
   std::span<const EffectParameter> parameters;
-  int offset;  ///< of its first parameter in the parameter vector
+  int offset;   ///< of its first parameter in the parameter vector
+  bool drives;  ///< acts on how rotors turn for their commands, not only on what turning rotors do
 };
 
 std::span<const EffectEntry> catalogue();

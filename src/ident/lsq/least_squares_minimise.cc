@@ -177,6 +177,7 @@ SteppedMinimum minimise_stepped(const SteppedProblem& problem, const Eigen::Vect
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
   options.max_num_iterations = problem.max_steps * (1 + problem.most_rejected);
+  options.max_num_consecutive_invalid_steps = problem.most_rejected + 1;  // which end it before
   options.logging_type = ceres::SILENT;
   EnoughSteps enough(problem);
   options.callbacks.push_back(&enough);

@@ -15,6 +15,9 @@ inline constexpr double kEstimatorStep = 4.6e-3;
 
 constexpr int kMaxRotors = 8;
 
+/// Steps that differ by less are alike to a motor, s: times that were written down differ by rounding.
+inline constexpr double kSameStep = 1e-12;
+
 /// The same of the longest steps, of order 2, which may reach over several rows of a log.
 inline constexpr double kLongStep = 10.5e-3;
 
@@ -271,7 +274,7 @@ class Flight {
   void advance_motors(const std::array<MotorState<S>, kMaxRotors>& from, double t, double h,
                       std::array<MotorState<S>, kMaxRotors>& to) {
     if (!inputs_->commanded()) return measured_motors(t + h, to);
-    if (h != h_) {
+    if (!(std::abs(h - h_) < kSameStep)) {
       h_ = h;
       up_ = motor_transition(p_[param::omega_m], p_[param::zeta_m], h);
       lag_ = 2.0 * p_[param::zeta_m] / p_[param::omega_m];

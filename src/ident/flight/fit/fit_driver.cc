@@ -159,7 +159,8 @@ void Fitting::find_noise(const std::function<void(double)>& tell) {
     } else if (!done && change < kNearly && !options_.rough_noise && steps_far(step)) {
       looked_at = true;
     } else if (is_finite(smoother_->linearize(u_))) {
-      trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1});
+      trust_region({.tolerance = 0.1, .near = kNear, .max_steps = 1, .leverage = true});
+      looked_at = smoother_->has_leverages_at(u_);
     } else {  // a sensor that seems to have no noise at all
       restart(before);
       break;

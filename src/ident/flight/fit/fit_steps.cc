@@ -23,6 +23,9 @@ constexpr int kMostSteps = 30;
 constexpr double kShort = 1.0;
 // Rejected steps in a row that end it: the next one would be a thousandth of the first.
 constexpr int kRejectedShort = 5;
+// Most by which a step may change the logarithm of a constant, a factor of twenty: slopes at its start say
+// nothing so far away, and a simulation there is lost time.
+constexpr double kFarthest = 3.0;
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -47,23 +50,30 @@ Factor factor(const MatrixXd& S, const VectorXd& g) {
   return {root.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal(), r};
 }
 
+// Whether a step changes no logarithm of a constant by more than `most`.
+bool keeps_within(const Theta& theta, const VectorXd& du, double most) {
+  for (int i = 0; i < theta.constants_count(); ++i)
+    if (theta.constants()[static_cast<std::size_t>(i)].positive && !(std::abs(du[i]) < most)) return false;
+  return true;
+}
+
 // The smoother as residuals of the shared unknowns, for Ceres: r'r is the cost, J'J the information.
 class SharedResiduals {
  public:
-  explicit SharedResiduals(FlightSmoother& smoother) : smoother_(&smoother) {}
+  SharedResiduals(FlightSmoother& smoother, bool leverage) : smoother_(&smoother), leverage_(leverage) {}
 
   bool operator()(const VectorXd& u, VectorXd& r, MatrixXd* J) {
     const Theta& theta = smoother_->theta();
     const int n = theta.size();
-    if (!theta.possible(u)) return false;
-    if (last_.size() == 0 || u != last_) linearize_at(*smoother_, u);
+    if (!theta.possible(u) || (from_.size() > 0 && !keeps_within(theta, u - from_, kFarthest))) return false;
+    if (last_.size() == 0 || u != last_) linearize_at(*smoother_, u, leverage_);
     last_ = u;
     const ReducedSystem& system = smoother_->reduced();
     if (!is_finite(system)) {
       last_.resize(0);
       return false;
     }
-    if (J) smoother_->accept();
+    if (J) smoother_->accept(), from_ = u;
     const Factor f = factor(system.S, system.g);
     const PriorTerms prior = theta.prior(u);
     r.head(n) = f.r;
@@ -82,7 +92,9 @@ class SharedResiduals {
 
  private:
   FlightSmoother* smoother_;
+  bool leverage_;
   VectorXd last_;  // empty where the simulation diverges
+  VectorXd from_;  // the last that was accepted
 };
 
 // Newton steps near the minimum, until less than `enough` is promised; returns the decrease that is still
@@ -94,7 +106,7 @@ double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough, 
   NewtonStep step = newton_step(smoother, at.u);
   for (int i = 0; i < most_steps && step.fall > enough && step.fall < kNear; ++i) {
     const VectorXd next = at.u + step.du;
-    if (!smoother.theta().possible(next)) break;
+    if (!smoother.theta().possible(next) || !keeps_within(smoother.theta(), step.du, kFarthest)) break;
     smoother.linearize(next);
     ++at.steps;
     const NewtonStep further = newton_step(smoother, next);
@@ -111,8 +123,8 @@ double newton_steps(FlightSmoother& smoother, SharedMinimum& at, double enough, 
 
 }  // namespace
 
-const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u) {
-  return smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u);
+const ReducedSystem& linearize_at(FlightSmoother& smoother, const VectorXd& u, bool leverage) {
+  return smoother.stands_at(u) ? smoother.relinearize() : smoother.linearize(u, leverage);
 }
 
 bool is_finite(const ReducedSystem& system) {
@@ -172,13 +184,11 @@ NewtonStep newton_step(const FlightSmoother& smoother, const VectorXd& u) {
 }
 
 bool is_short(const Theta& theta, const VectorXd& u, const VectorXd& du) {
-  for (int i = 0; i < theta.constants_count(); ++i)
-    if (theta.constants()[static_cast<std::size_t>(i)].positive && !(std::abs(du[i]) < 1)) return false;
-  return theta.possible(u + du);
+  return keeps_within(theta, du, 1.0) && theta.possible(u + du);
 }
 
 SharedMinimum by_trust_region(FlightSmoother& smoother, const VectorXd& start, const TrustRegion& region) {
-  SharedResiduals residuals(smoother);
+  SharedResiduals residuals(smoother, region.leverage);
   SteppedProblem problem;
   problem.residuals = 2 * smoother.theta().size() + 1;
   problem.tolerance = region.tolerance / samples_of(smoother.record());

@@ -16,7 +16,7 @@ struct SharedMinimum {
 };
 
 /// Linearises at u; where the last linearisation is there already, only the process noise can have changed.
-const ReducedSystem& linearize_at(FlightSmoother& smoother, const Eigen::VectorXd& u);
+const ReducedSystem& linearize_at(FlightSmoother& smoother, const Eigen::VectorXd& u, bool leverage = false);
 
 /// Whether the simulation stayed finite there.
 bool is_finite(const ReducedSystem& system);
@@ -45,6 +45,7 @@ struct TrustRegion {
   int max_steps = 30;
   /// Without a first radius, which would hold a step back along directions that only priors determine.
   bool free = true;
+  bool leverage = false;  ///< linearise with leverages, for a round of noise where it ends
 };
 /// Throws DataError where the simulation diverges at `start`.
 SharedMinimum by_trust_region(FlightSmoother& smoother, const Eigen::VectorXd& start,

@@ -84,7 +84,7 @@ void predict_turning(WindowErrors& errors, const Prediction& by, const Vehicles&
   BodyState<double> body = measured.body[begin];
   const std::size_t last = *std::ranges::max_element(ends);
   for (std::size_t i = begin; i < last; ++i) {
-    const auto& motors = by.along[errors.arc].motors;
+    const MotorsAlong& motors = *by.along[errors.arc].motors;
     if (body.w_B.norm() < kTumbling)
       body = turned_on(flight.body(), body, measured.body[i + 1], motors[i], motors[i + 1], t[i + 1] - t[i],
                        rotors);
@@ -101,7 +101,7 @@ void predict_all(WindowErrors& errors, const Prediction& by, Vehicles& flight, s
   const MeasuredArc& measured = by.motion.arcs[errors.arc];
   const std::vector<double>& t = measured.t;
   FlightState<double> state{};
-  state.body = measured.body[begin], state.motors = by.along[errors.arc].motors[begin];
+  state.body = measured.body[begin], state.motors = (*by.along[errors.arc].motors)[begin];
   BodyRate<double> rate = flight.rate(state, t[begin]);
   const std::size_t last = *std::ranges::max_element(ends);
   for (std::size_t i = begin; i < last; ++i) {
@@ -130,7 +130,7 @@ double apart(const RotorSpeeds& measured, const Motors& model, std::size_t rotor
 void predict_speeds(WindowErrors& errors, const Prediction& by, Vehicles& flight, std::size_t begin,
                     std::span<const std::size_t> ends) {
   const std::vector<double>& t = by.motion.arcs[errors.arc].t;
-  Motors motors = by.along[errors.arc].motors[begin];
+  Motors motors = (*by.along[errors.arc].motors)[begin];
   const std::size_t last = *std::ranges::max_element(ends);
   for (std::size_t i = begin; i < last; ++i) {
     flight.advance(motors, t[i], t[i + 1] - t[i]);

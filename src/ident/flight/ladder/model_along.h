@@ -1,6 +1,7 @@
 // What a model says along measured flight: the velocity and the rates that its forces and moments give.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,15 +9,22 @@
 
 namespace ident {
 
+/// The rotors at each row that is looked at, from the commands or measured.
+using MotorsAlong = std::vector<std::array<MotorState<double>, kMaxRotors>>;
+
 /// Along one arc; attitude, rates, velocity and position are those measured.
 struct ModelAlong {
   std::vector<Vec3<double>> gained_W;  ///< [row looked at] integral of the specific force in the world, m/s
   std::vector<Vec3<double>> turned_B;  ///< [row looked at] integral of the angular acceleration, rad/s
-  std::vector<std::array<MotorState<double>, kMaxRotors>>
-      motors;  ///< [row looked at], from the commands or measured
+  std::shared_ptr<const MotorsAlong> motors;
 };
 
 /// One for each arc of the motion. `p`: the model's constants.
 std::vector<ModelAlong> model_along(const MeasuredMotion& motion, std::span<const double> p);
+
+/// The same with constants that differ from those of `near` in the one at `moved` only: rotors that turn as
+/// they did there are not simulated again.
+std::vector<ModelAlong> model_along(const MeasuredMotion& motion, std::span<const double> p,
+                                    const std::vector<ModelAlong>& near, int moved);
 
 }  // namespace ident

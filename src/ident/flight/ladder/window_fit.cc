@@ -29,17 +29,44 @@ constexpr double kApart = 1e-3;  // of a unit, for differences
 constexpr double kLate = 0.01;
 constexpr double kLatest = 3.0;  // times that
 
-MatrixXd slopes(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
-                const Theta& theta, const VectorXd& u, const VectorXd& here) {
-  MatrixXd J(here.size(), u.size());
-  in_parallel(static_cast<std::size_t>(u.size()), [&](std::size_t i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    VectorXd moved = u;
-    moved[k] += kApart;
-    J.col(k) = (missed_by(motion, windows, what, theta.p(moved)) - here) / kApart;
-  });
-  return J;
-}
+// What windows miss for some constants, and how that changes with one of them.
+class Misses {
+ public:
+  Misses(const MeasuredMotion& motion, const std::vector<Window>& windows, FitTo what,
+         std::span<const double> p)
+      : motion_(motion), windows_(windows), what_(what) {
+    if (what != FitTo::speeds) model_ = model_along(motion, p);
+    here = what == FitTo::speeds ? missed_by(motion, windows, what, p)
+                                 : missed_in(motion, windows, what, model_);
+  }
+
+  /// After the constant at `moved` alone changed.
+  VectorXd after(int moved, std::span<const double> p) const {
+    if (what_ == FitTo::speeds) return missed_by(motion_, windows_, what_, p);
+    return missed_in(motion_, windows_, what_, model_along(motion_, p, model_, moved));
+  }
+
+  VectorXd by_late_rates() const { return missed_by_late_rates(motion_, windows_, model_); }
+
+  MatrixXd slopes(const Theta& theta, const VectorXd& u) const {
+    MatrixXd J(here.size(), u.size());
+    in_parallel(static_cast<std::size_t>(u.size()), [&](std::size_t i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      VectorXd moved = u;
+      moved[k] += kApart;
+      J.col(k) = (after(theta.constants()[i].index, theta.p(moved)) - here) / kApart;
+    });
+    return J;
+  }
+
+  VectorXd here;
+
+ private:
+  const MeasuredMotion& motion_;
+  const std::vector<Window>& windows_;
+  FitTo what_;
+  std::vector<ModelAlong> model_;
+};
 
 // How much more the score of each unknown varies from block to block than independent windows would have it.
 VectorXd colour(const std::vector<Window>& windows, const MatrixXd& J, const VectorXd& weighted,
@@ -107,14 +134,12 @@ VectorXd step_within(const MatrixXd& A, const VectorXd& b, const VectorXd& u,
 }
 
 // What an error of the constants that are held makes of the estimate.
-template <class Missed>
 void add_held(WindowFit& fit, const MatrixXd& gain, const std::vector<HeldConstant>& held,
-              const Missed& missed_at) {
-  const VectorXd here = missed_at(fit.p);
+              const Misses& misses) {
   for (const HeldConstant& constant : held) {
     std::vector<double> off = fit.p;
     off[static_cast<std::size_t>(constant.index)] += constant.std;
-    const VectorXd moved = gain * (missed_at(off) - here);
+    const VectorXd moved = gain * (misses.after(constant.index, off) - misses.here);
     if (moved.allFinite()) fit.covariance += moved * moved.transpose();
   }
 }
@@ -134,14 +159,13 @@ WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo wh
   MatrixXd J, gain, covariance;  // gain: of the estimate over the residuals
   for (int round = 0; round < kSteps; ++round) {
     fit.u = x.head(n);
-    VectorXd r = missed_by(motion, windows, what, theta.p(fit.u));
+    const Misses misses(motion, windows, what, theta.p(fit.u));
     if (round < kSloped) {
-      J = slopes(motion, windows, what, theta, fit.u, r);
+      J = misses.slopes(theta, fit.u);
       J.conservativeResize(Eigen::NoChange, x.size());
-      if (beside > 0)
-        J.col(n) = kLate * missed_by_late_rates(motion, windows, model_along(motion, theta.p(fit.u)));
+      if (beside > 0) J.col(n) = kLate * misses.by_late_rates();
     }
-    r += J.rightCols(beside) * x.tail(beside);
+    const VectorXd r = misses.here + J.rightCols(beside) * x.tail(beside);
     const VectorXd weight = weight_by_speed(windows, r);
     const VectorXd weighted = weight.cwiseProduct(r);
     const MatrixXd H = J.transpose() * weight.asDiagonal() * J;
@@ -167,7 +191,7 @@ WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo wh
       const VectorXd moved = gain * error;
       if (moved.allFinite()) fit.covariance += moved * moved.transpose();
     }
-  add_held(fit, gain, held, [&](std::span<const double> p) { return missed_by(motion, windows, what, p); });
+  add_held(fit, gain, held, Misses(motion, windows, what, fit.p));
   return fit;
 }
 

@@ -174,7 +174,7 @@ const ReducedSystem& FlightSmoother::linearize(const VectorXd& u, bool leverage)
   evaluate(u, true, leverage);
   if (gentle_) shorten_wild_steps(u, leverage);
   eliminate();
-  stands_ = true;
+  stands_ = true, leverages_ = leverage;
   return reduced_;
 }
 

@@ -78,6 +78,8 @@ class FlightSmoother {
   /// Whether the last linearisation is at u, under the present sensor noise and with the present kind of
   /// slopes.
   bool stands_at(const Eigen::VectorXd& u) const { return stands_ && u == trial_u_; }
+  /// Whether it was made with leverages, so that moments() may be called.
+  bool has_leverages_at(const Eigen::VectorXd& u) const { return leverages_ && stands_at(u); }
   /// Accepts the last linearisation: states are predicted from it from now on.
   void accept();
   /// Moves the states to their optimum for u and accepts. Takes up to `rounds` Gauss-Newton steps; ends
@@ -278,7 +280,7 @@ class FlightSmoother {
   int threads_;
   double huber_ = 4.0;
   Steps by_ = Steps::fine;  // kind of integration steps
-  bool stands_ = false, exact_ = false, gentle_ = false;
+  bool stands_ = false, leverages_ = false, exact_ = false, gentle_ = false;
   bool eliminated_ = false;  // the last linearisation, under the present noise, shared unknowns free
   std::vector<ChunkPlace> places_;
   std::vector<Chain> chains_;

@@ -35,8 +35,8 @@ bool off(const FittedModel& model, int index, double deviations) {
   return false;
 }
 
-// The stated value times a factor at which the flight fits best with all else as stated; NaN where it flies
-// with none.
+// The stated value times a factor at which the flight fits best with all else as stated. NaN where it flies
+// with none, or the slower the better: then no lag explains it, for the model does without its commands.
 double best_start(const FlightRecord& record, const std::vector<double>& p, const NoiseModel& noise,
                   double chunk_seconds, Steps steps) {
   double best = kNaN, least = 1e300;
@@ -51,6 +51,7 @@ double best_start(const FlightRecord& record, const std::vector<double>& p, cons
     const double cost = total_cost(smoother, theta, u);
     if (cost < least) least = cost, best = there[param::omega_m];
   }
+  if (best == kFactors.front() * p[param::omega_m]) return kNaN;
   return best;
 }
 

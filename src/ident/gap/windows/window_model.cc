@@ -127,7 +127,8 @@ WindowMisses WindowModel::linearised(const Theta& theta, const VectorXd& u, cons
   in_parallel(static_cast<std::size_t>(u.size()), [&](std::size_t i) {
     VectorXd moved = u;
     moved[static_cast<Index>(i)] += kApart;
-    const VectorXd there = missed_in(motion_, windows_, what_, model_along(motion_, theta.p(moved)));
+    const VectorXd there = missed_in(motion_, windows_, what_,
+                                     model_along(motion_, theta.p(moved), here, theta.constants()[i].index));
     out.slopes.col(static_cast<Index>(i)) = (there - out.missed) / kApart;
   });
   Index at = u.size();
