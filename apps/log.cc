@@ -5,7 +5,7 @@
 #include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
 #include "ident/io/log_formats/read_log_streams.h"
-#include "ident/io/rebuild/px4_commands.h"
+#include "ident/io/rebuild/rebuilt_commands.h"
 #include "ident/views/log_summary.h"
 #include "ident/views/streams_digest.h"
 
@@ -21,7 +21,7 @@ Outcome run(const Options& options, Context& context) {
   LogStreams log = read_log_streams(options.log);
   const nlohmann::ordered_json digest = options.streams ? streams_digest(log) : nlohmann::ordered_json();
   const std::string table = options.streams ? streams_table(log) : "";
-  add_px4_commands(log);
+  add_rebuilt_commands(log);
   std::optional<LogMap> map;
   if (!options.map.empty()) {
     map = read_log_map(options.map);

@@ -14,9 +14,9 @@ struct Reading {
 };
 
 struct SetPoints {
-  Vector3d rate = Vector3d::Zero();     // rad/s, FRD
-  Vector3d euler = Vector3d::Zero();    // rad
-  Inputs inputs = Inputs::Zero();       // what goes into the mixer
+  Vector3d rate = Vector3d::Zero();   // rad/s, FRD
+  Vector3d euler = Vector3d::Zero();  // rad
+  Inputs inputs = Inputs::Zero();     // what goes into the mixer
 };
 
 class Autopilot {
@@ -26,11 +26,11 @@ class Autopilot {
 
  private:
   Vehicle v_;
-  double hover_;              // normalised thrust that lifts the weight
-  Eigen::Vector4d effect_;    // N m and N per unit of each input about hover
+  double hover_;            // normalised thrust that lifts the weight
+  Eigen::Vector4d effect_;  // N m and N per unit of each input about hover
   double rate_gain_, attitude_gain_, velocity_gain_;
   double yaw_ = 0;
-  Vector3d rate_integral_ = Vector3d::Zero();   // rad/s^2
+  Vector3d rate_integral_ = Vector3d::Zero();  // rad/s^2
   Vector3d velocity_integral_ = Vector3d::Zero();
 };
 

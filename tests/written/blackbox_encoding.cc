@@ -11,8 +11,10 @@ class Nibbles {
  public:
   explicit Nibbles(Bytes& out) : out_(out) {}
   void put(int nibble) {
-    if (half_) out_.put(static_cast<std::uint8_t>(held_ << 4 | (nibble & 0xf)));
-    else held_ = nibble & 0xf;
+    if (half_)
+      out_.put(static_cast<std::uint8_t>(held_ << 4 | (nibble & 0xf)));
+    else
+      held_ = nibble & 0xf;
     half_ = !half_;
   }
   ~Nibbles() {

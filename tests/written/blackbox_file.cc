@@ -8,7 +8,8 @@ namespace {
 
 size_t run_length(const std::vector<BlackboxField>& fields, size_t first, size_t longest) {
   size_t n = 1;
-  while (n < longest && first + n < fields.size() && fields[first + n].p_encoding == fields[first].p_encoding) ++n;
+  while (n < longest && first + n < fields.size() && fields[first + n].p_encoding == fields[first].p_encoding)
+    ++n;
   return n;
 }
 
@@ -39,16 +40,25 @@ void BlackboxFile::field_headers() {
   header("Field S encoding", "1,1,7,7,7");
 }
 
-std::int32_t BlackboxFile::predict(Predictor predictor, size_t i, const std::vector<std::int32_t>& now) const {
+std::int32_t BlackboxFile::predict(Predictor predictor, size_t i,
+                                   const std::vector<std::int32_t>& now) const {
   switch (predictor) {
-    case kPrevious: return before_[i];
-    case kLine: return 2 * before_[i] - before_that_[i];
-    case kAverage: return (before_[i] + before_that_[i]) / 2;
-    case kMotor0: return now[motor0_];
-    case k1500: return 1500;
-    case kVbatRef: return constants_.vbat_ref;
-    case kMinMotor: return constants_.min_motor;
-    default: return 0;
+    case kPrevious:
+      return before_[i];
+    case kLine:
+      return 2 * before_[i] - before_that_[i];
+    case kAverage:
+      return (before_[i] + before_that_[i]) / 2;
+    case kMotor0:
+      return now[motor0_];
+    case k1500:
+      return 1500;
+    case kVbatRef:
+      return constants_.vbat_ref;
+    case kMinMotor:
+      return constants_.min_motor;
+    default:
+      return 0;
   }
 }
 
@@ -57,9 +67,15 @@ void BlackboxFile::intra(const std::vector<std::int32_t>& values) {
   for (size_t i = 0; i < fields_.size(); ++i) {
     const std::int32_t rest = values[i] - predict(fields_[i].i_predictor, i, values);
     switch (fields_[i].i_encoding) {
-      case kUnsignedVb: unsigned_vb(out_, static_cast<std::uint32_t>(rest)); break;
-      case kNeg14: unsigned_vb(out_, static_cast<std::uint32_t>(-rest) & 0x3fff); break;
-      default: signed_vb(out_, rest); break;
+      case kUnsignedVb:
+        unsigned_vb(out_, static_cast<std::uint32_t>(rest));
+        break;
+      case kNeg14:
+        unsigned_vb(out_, static_cast<std::uint32_t>(-rest) & 0x3fff);
+        break;
+      default:
+        signed_vb(out_, rest);
+        break;
     }
   }
   before_ = before_that_ = values;
@@ -67,19 +83,34 @@ void BlackboxFile::intra(const std::vector<std::int32_t>& values) {
 
 void BlackboxFile::inter(const std::vector<std::int32_t>& values) {
   std::vector<std::int32_t> rest;
-  for (size_t i = 0; i < fields_.size(); ++i) rest.push_back(values[i] - predict(fields_[i].p_predictor, i, values));
+  for (size_t i = 0; i < fields_.size(); ++i)
+    rest.push_back(values[i] - predict(fields_[i].p_predictor, i, values));
   out_.put('P');
   for (size_t i = 0; i < fields_.size();) {
     const Encoding encoding = fields_[i].p_encoding;
-    const size_t n = encoding == kTag2 ? 3 : encoding == kTag8S16 ? 4 : encoding == kTag8Svb ? run_length(fields_, i, 8) : 1;
+    const size_t n = encoding == kTag2      ? 3
+                     : encoding == kTag8S16 ? 4
+                     : encoding == kTag8Svb ? run_length(fields_, i, 8)
+                                            : 1;
     const std::span<const std::int32_t> group(&rest[i], n);
     switch (encoding) {
-      case kNull: break;
-      case kTag2: tag2_3s32(out_, group); break;
-      case kTag8S16: tag8_4s16(out_, group); break;
-      case kTag8Svb: tag8_8svb(out_, group); break;
-      case kUnsignedVb: unsigned_vb(out_, static_cast<std::uint32_t>(rest[i])); break;
-      default: signed_vb(out_, rest[i]); break;
+      case kNull:
+        break;
+      case kTag2:
+        tag2_3s32(out_, group);
+        break;
+      case kTag8S16:
+        tag8_4s16(out_, group);
+        break;
+      case kTag8Svb:
+        tag8_8svb(out_, group);
+        break;
+      case kUnsignedVb:
+        unsigned_vb(out_, static_cast<std::uint32_t>(rest[i]));
+        break;
+      default:
+        signed_vb(out_, rest[i]);
+        break;
     }
     i += n;
   }

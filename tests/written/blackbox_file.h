@@ -5,9 +5,27 @@
 
 namespace written {
 
-enum Predictor { kZero = 0, kPrevious = 1, kLine = 2, kAverage = 3, kMinThrottle = 4, kMotor0 = 5, kIncrement = 6, k1500 = 8,
-                 kVbatRef = 9, kMinMotor = 11 };
-enum Encoding { kSignedVb = 0, kUnsignedVb = 1, kNeg14 = 3, kTag8Svb = 6, kTag2 = 7, kTag8S16 = 8, kNull = 9 };
+enum Predictor {
+  kZero = 0,
+  kPrevious = 1,
+  kLine = 2,
+  kAverage = 3,
+  kMinThrottle = 4,
+  kMotor0 = 5,
+  kIncrement = 6,
+  k1500 = 8,
+  kVbatRef = 9,
+  kMinMotor = 11
+};
+enum Encoding {
+  kSignedVb = 0,
+  kUnsignedVb = 1,
+  kNeg14 = 3,
+  kTag8Svb = 6,
+  kTag2 = 7,
+  kTag8S16 = 8,
+  kNull = 9
+};
 
 struct BlackboxField {
   std::string name;
@@ -25,7 +43,9 @@ struct BlackboxConstants {
 class BlackboxFile {
  public:
   BlackboxFile(std::vector<BlackboxField> fields, const BlackboxConstants& constants);
-  void header(const std::string& key, const std::string& value) { out_.text("H " + key + ":" + value + "\n"); }
+  void header(const std::string& key, const std::string& value) {
+    out_.text("H " + key + ":" + value + "\n");
+  }
   void field_headers();
   void intra(const std::vector<std::int32_t>& values);
   void inter(const std::vector<std::int32_t>& values);

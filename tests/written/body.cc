@@ -22,8 +22,8 @@ Vector3d moment(const Vehicle& v, const State& x) {
   for (size_t n = 0; n < 4; ++n) {
     const auto& [r, s] = v.rotors[n];
     const double square = x.Omega[n] * x.Omega[n];
-    M += r.cross(v.kT * square * a) - s * v.kQ * square * a;                       // thrust and drag torque
-    M -= s * v.Jp * (x.dOmega[n] * a + x.Omega[n] * x.w_B.cross(a));               // reaction and gyroscopic torque
+    M += r.cross(v.kT * square * a) - s * v.kQ * square * a;          // thrust and drag torque
+    M -= s * v.Jp * (x.dOmega[n] * a + x.Omega[n] * x.w_B.cross(a));  // reaction and gyroscopic torque
   }
   return M;
 }
@@ -32,7 +32,8 @@ Rate rate(const Vehicle& v, const State& x, const PerRotor& delta) {
   Rate d;
   for (size_t n = 0; n < 4; ++n) {  // [Phang 22]
     d.dOmega[n] = x.dOmega[n];
-    d.ddOmega[n] = v.omega_m * v.omega_m * (v.km * delta[n] - x.Omega[n]) - 2 * v.zeta_m * v.omega_m * x.dOmega[n];
+    d.ddOmega[n] =
+        v.omega_m * v.omega_m * (v.km * delta[n] - x.Omega[n]) - 2 * v.zeta_m * v.omega_m * x.dOmega[n];
   }
   if (x.on_ground) {
     d.v_W = d.a_W = d.dw_B = Vector3d::Zero();

@@ -17,7 +17,8 @@ struct State {
 // m/s^2, FRD: (0, 0, -g) at rest.
 Vector3d specific_force(const Vehicle& v, const State& x);
 
-// The state one step later under a constant command. The ground is at z = 0; a vehicle on it stands level and still.
+// The state one step later under a constant command. The ground is at z = 0; a vehicle on it stands level and
+// still.
 State advance(const Vehicle& v, const State& x, const PerRotor& delta);
 
 }  // namespace written

@@ -9,10 +9,10 @@ namespace written {
 
 // How a log is written; each writer reads what concerns it.
 struct Logging {
-  bool fast = false;         // PX4: system identification profile; ArduPilot: ATTITUDE_FAST and IMU_FAST
-  bool rotor_speeds = false; // ESC telemetry
+  bool fast = false;             // PX4: system identification profile; ArduPilot: ATTITUDE_FAST and IMU_FAST
+  bool rotor_speeds = false;     // ESC telemetry
   bool swapped_outputs = false;  // ArduPilot: motors 2, 3, 4 on the outputs 3, 4, 2
-  bool old_firmware = false; // Betaflight: 4.2, without gyroUnfilt, eRPM and motor_poles
+  bool old_firmware = false;     // Betaflight: 4.2, without gyroUnfilt, eRPM and motor_poles
 };
 
 void write_csv(const std::string& path, const Flight& flight, bool rotor_speeds);

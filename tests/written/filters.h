@@ -30,7 +30,8 @@ class Butterworth {
   Vector3d old_ = Vector3d::Zero(), older_ = Vector3d::Zero();
 };
 
-// `order` first-order stages in a row; the cut-off of the whole is `cutoff_hz` (pt1Filter, pt2Filter of Betaflight).
+// `order` first-order stages in a row; the cut-off of the whole is `cutoff_hz` (pt1Filter, pt2Filter of
+// Betaflight).
 class Stages {
  public:
   Stages(int order, double cutoff_hz, double rate_hz) : order_(order) {

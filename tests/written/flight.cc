@@ -73,7 +73,8 @@ Flight fly(const Vehicle& v, std::uint64_t seed) {
     if (k % v.control_steps == 0) {
       if (!armed) {
         motors = stopped(v), set = SetPoints{};
-      } else if (landed && t < flight.landing + kMaybeLanded) {  // the thrust fades while contact is being noticed
+      } else if (landed &&
+                 t < flight.landing + kMaybeLanded) {  // the thrust fades while contact is being noticed
         set = SetPoints{};
         set.inputs[3] = t < flight.landing + kContact ? 0.2 : 0.05;
         motors = mix(v, set.inputs);
@@ -81,7 +82,8 @@ Flight fly(const Vehicle& v, std::uint64_t seed) {
         motors = idling(v), set = SetPoints{};
       } else {
         // The loops see the state without the estimator's white noise, which no firmware would feed them.
-        set = autopilot.run({x.p_W, x.v_W, s.gyro_filtered - bias, x.q_WB}, plan.at(t), v.control_steps * kStep);
+        set = autopilot.run({x.p_W, x.v_W, s.gyro_filtered - bias, x.q_WB}, plan.at(t),
+                            v.control_steps * kStep);
         motors = mix(v, set.inputs);
       }
     }

@@ -10,20 +10,20 @@ namespace written {
 
 struct Sample {  // at time index * kStep
   State truth;
-  Vector3d gyro, accel;              // rad/s, m/s^2, FRD, unfiltered, with bias and noise
+  Vector3d gyro, accel;  // rad/s, m/s^2, FRD, unfiltered, with bias and noise
   Vector3d gyro_filtered, accel_filtered;
-  Eigen::Quaterniond q_WB;           // what the estimator shows
+  Eigen::Quaterniond q_WB;  // what the estimator shows
   Vector3d p_W, v_W;
   SetPoints set;
-  Outputs motors;                    // hold from this sample to the next
+  Outputs motors;  // hold from this sample to the next
   bool armed = false;
 };
 
-struct Noise {                       // white, of one sample at 4 kHz or of one output of the estimator
-  double gyro = 0.0087;              // rad/s: 0.011 deg/s/sqrt(Hz)
-  double accel = 0.5;                // m/s^2: 0.011 m/s^2/sqrt(Hz)
+struct Noise {           // white, of one sample at 4 kHz or of one output of the estimator
+  double gyro = 0.0087;  // rad/s: 0.011 deg/s/sqrt(Hz)
+  double accel = 0.5;    // m/s^2: 0.011 m/s^2/sqrt(Hz)
   double angle = 0.0015, velocity = 0.01, position = 0.01;  // rad, m/s, m
-  double gyro_bias = 0.004;          // rad/s, turn-on
+  double gyro_bias = 0.004;                                 // rad/s, turn-on
 };
 
 // When the firmware notices touch-down, s after it: contact, perhaps landed, landed.

@@ -1,4 +1,5 @@
-// Writes the flights: each in its autopilot's format, as CSV with and without rotor speeds, with vehicle file and truth.
+// Writes the flights: each in its autopilot's format, as CSV with and without rotor speeds, with vehicle file
+// and truth.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -25,7 +26,10 @@ const Entry kFlights[] = {
     {"px4_fast_model", Stack::px4, "log.ulg", {.fast = true}, 0.35},
     {"ardupilot_default", Stack::ardupilot, "log.bin", {}},
     {"ardupilot_fast", Stack::ardupilot, "log.bin", {.fast = true, .rotor_speeds = true}},
-    {"ardupilot_swapped", Stack::ardupilot, "log.bin", {.fast = true, .rotor_speeds = true, .swapped_outputs = true}},
+    {"ardupilot_swapped",
+     Stack::ardupilot,
+     "log.bin",
+     {.fast = true, .rotor_speeds = true, .swapped_outputs = true}},
     {"betaflight_4_5", Stack::betaflight, "log.bbl", {.rotor_speeds = true}},
     {"betaflight_4_2", Stack::betaflight, "log.bbl", {.old_firmware = true}},
     {"crazyflie", Stack::crazyflie, "log.usd", {}},
@@ -33,10 +37,14 @@ const Entry kFlights[] = {
 
 void write_log(const std::string& path, const Flight& flight, const Logging& logging) {
   switch (flight.v.stack) {
-    case Stack::px4: return write_ulog(path, flight, logging);
-    case Stack::ardupilot: return write_dataflash(path, flight, logging);
-    case Stack::betaflight: return write_blackbox(path, flight, logging);
-    case Stack::crazyflie: return write_card(path, flight);
+    case Stack::px4:
+      return write_ulog(path, flight, logging);
+    case Stack::ardupilot:
+      return write_dataflash(path, flight, logging);
+    case Stack::betaflight:
+      return write_blackbox(path, flight, logging);
+    case Stack::crazyflie:
+      return write_card(path, flight);
   }
 }
 

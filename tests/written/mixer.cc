@@ -1,4 +1,5 @@
-// PX4: control_allocator and FunctionMotors; ArduPilot: AP_MotorsMatrix; Betaflight: mixer.c; Crazyflie: power_distribution.
+// PX4: control_allocator and FunctionMotors; ArduPilot: AP_MotorsMatrix; Betaflight: mixer.c; Crazyflie:
+// power_distribution.
 #include "mixer.h"
 
 #include <Eigen/Dense>
@@ -11,8 +12,8 @@ namespace {
 
 double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
 
-// ControlAllocator publishes actuator_motors = mix [torque; thrust]; the thrust model is applied after that topic,
-// where the output driver reads it (FunctionMotors::updateValues).
+// ControlAllocator publishes actuator_motors = mix [torque; thrust]; the thrust model is applied after that
+// topic, where the output driver reads it (FunctionMotors::updateValues).
 Outputs mix_px4(const Vehicle& v, const Inputs& u) {
   const Eigen::Vector4d control = px4_mix(v) * u;
   Outputs out;
@@ -28,9 +29,11 @@ Outputs mix_px4(const Vehicle& v, const Inputs& u) {
 
 double pulse(double actuator) { return std::round(kPwmMin + (kPwmMax - kPwmMin) * clamp01(actuator)); }
 
-// AP_MotorsMatrix for frame X: roll, pitch and yaw factors of 0.5; the thrust curve; the range between spin min and max.
+// AP_MotorsMatrix for frame X: roll, pitch and yaw factors of 0.5; the thrust curve; the range between spin
+// min and max.
 Outputs mix_ardupilot(const Inputs& u) {
-  constexpr double roll[] = {-0.5, 0.5, 0.5, -0.5}, pitch[] = {0.5, -0.5, 0.5, -0.5}, yaw[] = {0.5, 0.5, -0.5, -0.5};
+  constexpr double roll[] = {-0.5, 0.5, 0.5, -0.5}, pitch[] = {0.5, -0.5, 0.5, -0.5},
+                   yaw[] = {0.5, 0.5, -0.5, -0.5};
   Outputs out;
   for (size_t n = 0; n < 4; ++n) {
     const double thrust = clamp01(u[3] + roll[n] * u[0] + pitch[n] * u[1] + yaw[n] * u[2]);
@@ -76,7 +79,8 @@ Eigen::Matrix4d px4_mix(const Vehicle& v) {
     effect.col(i) << CT * rotor.r_B.cross(a) - CT * KM * rotor.s * a, CT * a.z();
   }
   Eigen::Matrix4d mix = effect.completeOrthogonalDecomposition().pseudoInverse();
-  const double roll = std::sqrt(mix.col(0).squaredNorm() / 2), pitch = std::sqrt(mix.col(1).squaredNorm() / 2);
+  const double roll = std::sqrt(mix.col(0).squaredNorm() / 2),
+               pitch = std::sqrt(mix.col(1).squaredNorm() / 2);
   mix.leftCols<2>() /= std::max(roll, pitch);
   mix.col(2) /= mix.col(2).maxCoeff();
   mix.col(3) /= -mix.col(3).cwiseAbs().mean();  // our input is the thrust upwards, -thrust_setpoint.z
@@ -90,10 +94,14 @@ Vector3d firmware_signs(Stack stack) {
 
 Outputs mix(const Vehicle& v, const Inputs& u) {
   switch (v.stack) {
-    case Stack::px4: return mix_px4(v, u);
-    case Stack::ardupilot: return mix_ardupilot(u);
-    case Stack::betaflight: return mix_betaflight(u);
-    default: return mix_crazyflie(u);
+    case Stack::px4:
+      return mix_px4(v, u);
+    case Stack::ardupilot:
+      return mix_ardupilot(u);
+    case Stack::betaflight:
+      return mix_betaflight(u);
+    default:
+      return mix_crazyflie(u);
   }
 }
 

@@ -14,16 +14,17 @@ struct Outputs {
   PerRotor delta{};   // the normalised command of the ESC, 0 to 1
 };
 
-constexpr double kPwmMin = 1000, kPwmMax = 2000;          // us, ArduPilot
+constexpr double kPwmMin = 1000, kPwmMax = 2000;  // us, ArduPilot
 constexpr double kSpinArm = 0.10, kSpinMin = 0.15, kSpinMax = 0.95, kThrustExpo = 0.65;
-constexpr double kMotorLow = 158, kMotorHigh = 2047;      // Betaflight's motorOutput for DShot
+constexpr double kMotorLow = 158, kMotorHigh = 2047;  // Betaflight's motorOutput for DShot
 
-// PX4's allocation matrix from CA_ROTORn_* as the firmware normalises it; columns roll, pitch, yaw, thrust (upwards).
+// PX4's allocation matrix from CA_ROTORn_* as the firmware normalises it; columns roll, pitch, yaw, thrust
+// (upwards).
 Eigen::Matrix4d px4_mix(const Vehicle& v);
 
 Outputs mix(const Vehicle& v, const Inputs& u);
-Outputs stopped(const Vehicle& v);             // disarmed
-Outputs idling(const Vehicle& v);              // armed on the ground
+Outputs stopped(const Vehicle& v);  // disarmed
+Outputs idling(const Vehicle& v);   // armed on the ground
 
 // The signs that turn FRD torque into the firmware's roll, pitch and yaw.
 Vector3d firmware_signs(Stack stack);

@@ -10,12 +10,12 @@ namespace written {
 using Eigen::Vector3d;
 
 struct Wish {
-  Vector3d v_W = Vector3d::Zero();     // m/s
-  double height = 0;                   // m above ground, held where `hold_height`
+  Vector3d v_W = Vector3d::Zero();  // m/s
+  double height = 0;                // m above ground, held where `hold_height`
   bool hold_height = true;
-  double roll = 0, pitch = 0;          // rad, on top of what the velocity loop wants
-  double yaw_rate = 0;                 // rad/s
-  Vector3d rate = Vector3d::Zero();    // rad/s, on top of what the attitude loop wants
+  double roll = 0, pitch = 0;        // rad, on top of what the velocity loop wants
+  double yaw_rate = 0;               // rad/s
+  Vector3d rate = Vector3d::Zero();  // rad/s, on top of what the attitude loop wants
 };
 
 // Phases of a flight, s.

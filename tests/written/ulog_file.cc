@@ -18,7 +18,9 @@ void UlogFile::message(Bytes& to, char type, const Bytes& payload) const {
 
 void UlogFile::define(const std::string& format) { message(formats_, 'F', Bytes().text(format)); }
 
-void UlogFile::info(const std::string& typed_key, const Bytes& value) { message(facts_, 'I', keyed(typed_key, value)); }
+void UlogFile::info(const std::string& typed_key, const Bytes& value) {
+  message(facts_, 'I', keyed(typed_key, value));
+}
 
 void UlogFile::info(const std::string& key, const std::string& value) {
   info("char[" + std::to_string(value.size()) + "] " + key, Bytes().text(value));
@@ -56,8 +58,10 @@ void UlogFile::write(const std::string& path) const {
     message(out, 'A', Bytes().put(std::uint8_t{0}).put(static_cast<std::uint16_t>(i)).text(topics_[i]));
   for (const auto& [time, record] : records_) {
     const auto& [topic, payload] = record;
-    if (topic < 0) message(out, 'L', payload);
-    else message(out, 'D', Bytes().put(static_cast<std::uint16_t>(topic)).append(payload));
+    if (topic < 0)
+      message(out, 'L', payload);
+    else
+      message(out, 'D', Bytes().put(static_cast<std::uint16_t>(topic)).append(payload));
   }
   out.write(path);
 }

@@ -11,8 +11,8 @@ namespace written {
 using Eigen::Vector3d;
 using PerRotor = std::array<double, 4>;
 
-constexpr double kGravity = 9.81;    // m/s^2
-constexpr double kStep = 1.0 / 4000; // s, of the simulation
+constexpr double kGravity = 9.81;     // m/s^2
+constexpr double kStep = 1.0 / 4000;  // s, of the simulation
 
 enum class Stack { px4, ardupilot, betaflight, crazyflie };
 
@@ -24,11 +24,11 @@ struct Rotor {
 struct Vehicle {
   std::string name;
   Stack stack;
-  double m;                  // kg
-  Vector3d J;                // kg m^2, principal
-  double kT, kQ;             // N s^2/rad^2, N m s^2/rad^2
+  double m;                    // kg
+  Vector3d J;                  // kg m^2, principal
+  double kT, kQ;               // N s^2/rad^2, N m s^2/rad^2
   double km, omega_m, zeta_m;  // rad/s per unit command, rad/s, -
-  double Jp;                 // kg m^2
+  double Jp;                   // kg m^2
   std::array<Rotor, 4> rotors;
   int control_steps;         // simulation steps for one run of the rate controller
   double gyro_hz, accel_hz;  // cut-offs of the autopilot's own filters

@@ -1,4 +1,5 @@
-// The flight as a Betaflight log: a PID loop of 4 kHz, rows at 1 kHz (4.5) or 500 Hz (4.2), from arming to disarming.
+// The flight as a Betaflight log: a PID loop of 4 kHz, rows at 1 kHz (4.5) or 500 Hz (4.2), from arming to
+// disarming.
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -48,7 +49,8 @@ std::vector<BlackboxField> fields(bool old_firmware) {
 
 std::int32_t whole(double x) { return static_cast<std::int32_t>(std::lround(x)); }
 
-// Bidirectional DShot reports the period of the electrical rotation: 9 bits and a shift, us; logged as eRPM/100.
+// Bidirectional DShot reports the period of the electrical rotation: 9 bits and a shift, us; logged as
+// eRPM/100.
 std::int32_t erpm(double Omega) {
   if (Omega < 20) return 0;  // no telemetry at rest
   const double period = 60e6 / (Omega * 30 / std::numbers::pi * kPoles / 2);
@@ -80,8 +82,10 @@ class Writer {
         log_.beep(static_cast<std::uint32_t>(micros(k)));
       }
       const size_t iteration = k - *first;
-      if (iteration % kIntraEvery == 0) log_.intra(row(k, iteration));
-      else if (iteration % kIntraEvery % every == 0) log_.inter(row(k, iteration));
+      if (iteration % kIntraEvery == 0)
+        log_.intra(row(k, iteration));
+      else if (iteration % kIntraEvery % every == 0)
+        log_.inter(row(k, iteration));
       if (static_cast<double>(k) * kStep > last + 1) last = static_cast<double>(k) * kStep, log_.slow(3, 0);
     }
     log_.end(1);
@@ -94,7 +98,8 @@ class Writer {
   void facts() {
     const auto header = [&](const char* key, const std::string& value) { log_.header(key, value); };
     header("Firmware type", "Cleanflight");
-    header("Firmware revision", old_ ? "Betaflight 4.2.11 (948ba6339) STM32F7X2" : "Betaflight 4.5.1 (77d01ba3b) STM32F7X2");
+    header("Firmware revision",
+           old_ ? "Betaflight 4.2.11 (948ba6339) STM32F7X2" : "Betaflight 4.5.1 (77d01ba3b) STM32F7X2");
     header("Firmware date", old_ ? "Nov  9 2021 20:29:32" : "Jul 27 2024 05:47:50");
     header("Board information", "ZEEZ ZEEZF7V2");
     header("Log start datetime", "0000-01-01T00:00:00.000+00:00");
@@ -116,12 +121,14 @@ class Writer {
     header("pid_process_denom", "2");
     header("gyro_hardware_lpf", "0");
     if (old_) {
-      header("gyro_lowpass_type", "0"), header("gyro_lowpass_hz", "250"), header("gyro_lowpass_dyn_hz", "0,500");
+      header("gyro_lowpass_type", "0"), header("gyro_lowpass_hz", "250"),
+          header("gyro_lowpass_dyn_hz", "0,500");
       header("gyro_lowpass2_type", "0"), header("gyro_lowpass2_hz", "500");
       header("gyro_notch_hz", "0,0"), header("gyro_notch_cutoff", "0,0");
       header("dyn_notch_max_hz", "0");
     } else {
-      header("gyro_lpf1_type", "0"), header("gyro_lpf1_static_hz", "250"), header("gyro_lpf1_dyn_hz", "0,500");
+      header("gyro_lpf1_type", "0"), header("gyro_lpf1_static_hz", "250"),
+          header("gyro_lpf1_dyn_hz", "0,500");
       header("gyro_lpf2_type", "0"), header("gyro_lpf2_static_hz", "500");
       header("gyro_notch_hz", "0,0"), header("gyro_notch_cutoff", "0,0");
       header("dyn_notch_count", "0");
@@ -134,7 +141,9 @@ class Writer {
     header("motor_pwm_rate", "480");
     header("dshot_idle_value", "550");
     header("debug_mode", "0");
-    if (!old_) header("thrust_linear", "0"), header("motor_output_limit", "100"), header("blackbox_high_resolution", "0");
+    if (!old_)
+      header("thrust_linear", "0"), header("motor_output_limit", "100"),
+          header("blackbox_high_resolution", "0");
   }
 
   std::vector<std::int32_t> row(size_t k, size_t iteration) const {
@@ -144,11 +153,12 @@ class Writer {
     const Vector3d signs(1, -1, -1);  // forward, left, up
     const double degree = 180 / std::numbers::pi;
     const Vector3d want = degree * signs.cwiseProduct(s.set.rate), pid = 500 * s.set.inputs.head<3>();
-    put(pid), put(Vector3d::Zero());             // P and I of the controller
+    put(pid), put(Vector3d::Zero());  // P and I of the controller
     r.insert(r.end(), {0, 0, 0, 0, 0});
     put(want / 2), r.push_back(whole(1000 + 1000 * s.set.inputs[3]));
     put(want), r.push_back(whole(1000 * s.set.inputs[3]));
-    r.insert(r.end(), {whole(100 * flight_.voltage(static_cast<double>(k) * kStep)), 1500, whole(-100 * s.p_W.z()), 1000});
+    r.insert(r.end(), {whole(100 * flight_.voltage(static_cast<double>(k) * kStep)), 1500,
+                       whole(-100 * s.p_W.z()), 1000});
     put(degree * signs.cwiseProduct(s.gyro_filtered));
     if (!old_) put(degree * signs.cwiseProduct(s.gyro));
     put(kOneG / kGravity * signs.cwiseProduct(s.accel_filtered));

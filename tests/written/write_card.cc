@@ -1,4 +1,5 @@
-// The flight as the micro-SD card of a Crazyflie holds it: two event streams of the IMU beside one of fixed rate.
+// The flight as the micro-SD card of a Crazyflie holds it: two event streams of the IMU beside one of fixed
+// rate.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -21,7 +22,8 @@ std::uint32_t crc32(const std::vector<char>& data) {  // polynomial of zlib
   return ~crc;
 }
 
-void stream(Bytes& out, std::uint16_t id, const std::string& name, std::initializer_list<const char*> variables) {
+void stream(Bytes& out, std::uint16_t id, const std::string& name,
+            std::initializer_list<const char*> variables) {
   out.put(id).text(name).zeros(1).put(static_cast<std::uint16_t>(variables.size()));
   for (const char* variable : variables) out.text(variable).zeros(1);
 }
@@ -35,11 +37,12 @@ void write_card(const std::string& path, const Flight& flight) {
   out.put(std::uint8_t{0xbc}).each<std::uint16_t>(2, 3);
   stream(out, kGyro, "estGyroscope", {"gyro.x(f)", "gyro.y(f)", "gyro.z(f)"});
   stream(out, kAccel, "estAcceleration", {"acc.x(f)", "acc.y(f)", "acc.z(f)"});
-  stream(out, kFixed, "fixedFrequency",
-         {"motor.m1(H)", "motor.m2(H)", "motor.m3(H)", "motor.m4(H)", "stateEstimate.x(f)", "stateEstimate.y(f)",
-          "stateEstimate.z(f)", "stateEstimate.vx(f)", "stateEstimate.vy(f)", "stateEstimate.vz(f)", "stateEstimate.roll(f)",
-          "stateEstimate.pitch(f)", "stateEstimate.yaw(f)", "stateEstimate.qx(f)", "stateEstimate.qy(f)",
-          "stateEstimate.qz(f)", "stateEstimate.qw(f)", "pm.vbat(f)"});
+  stream(
+      out, kFixed, "fixedFrequency",
+      {"motor.m1(H)", "motor.m2(H)", "motor.m3(H)", "motor.m4(H)", "stateEstimate.x(f)", "stateEstimate.y(f)",
+       "stateEstimate.z(f)", "stateEstimate.vx(f)", "stateEstimate.vy(f)", "stateEstimate.vz(f)",
+       "stateEstimate.roll(f)", "stateEstimate.pitch(f)", "stateEstimate.yaw(f)", "stateEstimate.qx(f)",
+       "stateEstimate.qy(f)", "stateEstimate.qz(f)", "stateEstimate.qw(f)", "pm.vbat(f)"});
   for (size_t k = 0; k < flight.samples.size(); k += 4) {  // 1 kHz
     const Sample& s = flight.samples[k];
     const double t = static_cast<double>(k) * kStep, degree = 180 / std::numbers::pi;

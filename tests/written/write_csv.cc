@@ -1,4 +1,5 @@
-// The flight as CSV of FORMATS.md, a row for each run of the rate controller, or at 1 kHz where that is faster.
+// The flight as CSV of FORMATS.md, a row for each run of the rate controller, or at 1 kHz where that is
+// faster.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,9 +33,11 @@ void write_csv(const std::string& path, const Flight& flight, bool rotor_speeds)
     const double t = static_cast<double>(k) * kStep;
     std::fprintf(file, "%.5f", t);
     for (const double delta : mean_command(flight, k, steps)) std::fprintf(file, ",%.6f", delta);
-    for (const Vector3d& part : {s.gyro, s.accel}) std::fprintf(file, ",%.6f,%.6f,%.6f", part.x(), part.y(), part.z());
+    for (const Vector3d& part : {s.gyro, s.accel})
+      std::fprintf(file, ",%.6f,%.6f,%.6f", part.x(), part.y(), part.z());
     std::fprintf(file, ",%.7f,%.7f,%.7f,%.7f", s.q_WB.w(), s.q_WB.x(), s.q_WB.y(), s.q_WB.z());
-    for (const Vector3d& part : {s.p_W, s.v_W}) std::fprintf(file, ",%.5f,%.5f,%.5f", part.x(), part.y(), part.z());
+    for (const Vector3d& part : {s.p_W, s.v_W})
+      std::fprintf(file, ",%.5f,%.5f,%.5f", part.x(), part.y(), part.z());
     std::fprintf(file, ",%.3f", flight.voltage(t));
     if (rotor_speeds)
       for (const double Omega : s.truth.Omega) std::fprintf(file, ",%.0f", Omega);

@@ -13,14 +13,17 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 std::uint64_t micros(double t) { return static_cast<std::uint64_t>(std::llround((kBoot + t) * 1e6)); }
 
-Bytes stamped(double published, double sampled) { return Bytes().put(micros(published)).put(micros(sampled)); }
+Bytes stamped(double published, double sampled) {
+  return Bytes().put(micros(published)).put(micros(sampled));
+}
 
 Bytes& put(Bytes& to, const Vector3d& x) { return to.each<float>(x.x(), x.y(), x.z()); }
 
 // Trapezoidal integral of VehicleIMU, divided by its length: the mean over the last 5 ms.
-Vector3d mean_over(const Flight& flight, size_t k, size_t steps, Vector3d Sample::* field) {
+Vector3d mean_over(const Flight& flight, size_t k, size_t steps, Vector3d Sample::*field) {
   Vector3d sum = Vector3d::Zero();
-  for (size_t i = k - steps; i < k; ++i) sum += 0.5 * (flight.samples[i].*field + flight.samples[i + 1].*field);
+  for (size_t i = k - steps; i < k; ++i)
+    sum += 0.5 * (flight.samples[i].*field + flight.samples[i + 1].*field);
   return sum / static_cast<double>(steps);
 }
 
@@ -66,7 +69,9 @@ class Writer {
     return k > 0 && (ground(time(k)) != ground(time(k - 1)) || at(k).armed != at(k - 1).armed);
   }
   const Sample& at(size_t k) const { return flight_.samples[k]; }
-  void store(const char* topic, double published, const Bytes& record) { log_.data(topic, micros(published), record); }
+  void store(const char* topic, double published, const Bytes& record) {
+    log_.data(topic, micros(published), record);
+  }
 
   void sensor_combined(size_t k) {
     Bytes b = Bytes().put(micros(time(k)));
@@ -111,7 +116,8 @@ class Writer {
   void attitude(size_t k) {
     const double t = time(k);
     const Eigen::Quaterniond& q = at(k).q_WB;
-    store("vehicle_attitude", t + 5e-4, stamped(t + 5e-4, t).each<float>(q.w(), q.x(), q.y(), q.z(), 1, 0, 0, 0).zeros(1));
+    store("vehicle_attitude", t + 5e-4,
+          stamped(t + 5e-4, t).each<float>(q.w(), q.x(), q.y(), q.z(), 1, 0, 0, 0).zeros(1));
   }
   void local_position(size_t k) {
     const double t = time(k);
@@ -161,14 +167,20 @@ class Writer {
     const bool armed = at(k).armed;
     const auto [contact, maybe, landed] = ground(t);
     store("vehicle_land_detected", t + 1e-4,
-          Bytes().put(micros(t + 1e-4)).each<std::uint8_t>(0, contact, maybe, landed, 0, 0, contact, 0, 0, 0, 1, landed));
-    Bytes status = Bytes().put(micros(t + 2e-4)).put(armed ? micros(kArm) : 0).put(landed ? 0 : micros(flight_.take_off));
+          Bytes()
+              .put(micros(t + 1e-4))
+              .each<std::uint8_t>(0, contact, maybe, landed, 0, 0, contact, 0, 0, 0, 1, landed));
+    Bytes status = Bytes()
+                       .put(micros(t + 2e-4))
+                       .put(armed ? micros(kArm) : 0)
+                       .put(landed ? 0 : micros(flight_.take_off));
     status.put(micros(0)).zeros(10).each<std::uint8_t>(armed ? 2 : 1, 1, 0, 2, 2, 0, 0, 1).zeros(11);
     status.each<std::uint8_t>(2, 1, 1).zeros(12);
     store("vehicle_status", t + 2e-4, status);
     store("vehicle_control_mode", t + 3e-4,
           Bytes().put(micros(t + 3e-4)).each<std::uint8_t>(armed, 1, 1, 0, 0, 1, 1, 1, 1, 0, 1, 1, 1, 0, 2));
-    store("actuator_armed", t + 4e-4, Bytes().put(micros(t + 4e-4)).each<std::uint8_t>(armed, 0, 1, 0, 0, 0, 0));
+    store("actuator_armed", t + 4e-4,
+          Bytes().put(micros(t + 4e-4)).each<std::uint8_t>(armed, 0, 1, 0, 0, 0, 0));
   }
 
   const Flight& flight_;

@@ -24,12 +24,13 @@ void write_vehicle(const std::string& folder, const Vehicle& v, std::uint64_t se
   truth["m"] = v.m;
   std::FILE* file = std::fopen((folder + "/vehicle.yaml").c_str(), "w");
   if (file == nullptr) throw std::runtime_error("cannot write in " + folder);
-  std::fprintf(file, "# Rotors in the motor order of the log; constants as from a bench, off by 5 to 10 %%.\n");
-  std::fprintf(file, "name: %s\ngravity: %.2f\nair: calm\nmass: {value: %.6g, std: %.3g}\nrotors:\n", v.name.c_str(), kGravity,
-               v.m, 0.002 * v.m);
+  std::fprintf(file,
+               "# Rotors in the motor order of the log; constants as from a bench, off by 5 to 10 %%.\n");
+  std::fprintf(file, "name: %s\ngravity: %.2f\nair: calm\nmass: {value: %.6g, std: %.3g}\nrotors:\n",
+               v.name.c_str(), kGravity, v.m, 0.002 * v.m);
   for (const Rotor& rotor : v.rotors)
-    std::fprintf(file, "  - {position: [%g, %g, %g], axis: [0, 0, -1], spin: %s}\n", rotor.r_B.x(), rotor.r_B.y(),
-                 rotor.r_B.z(), rotor.s > 0 ? "ccw" : "cw");
+    std::fprintf(file, "  - {position: [%g, %g, %g], axis: [0, 0, -1], spin: %s}\n", rotor.r_B.x(),
+                 rotor.r_B.y(), rotor.r_B.z(), rotor.s > 0 ? "ccw" : "cw");
   std::fputs("parameters:\n", file);
   Random random(seed ^ 0x57a7edu);
   for (const Stated& c : constants) {

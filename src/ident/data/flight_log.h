@@ -18,13 +18,15 @@ struct FlightLog {
   std::vector<std::vector<double>> Omega;  ///< [rotor][row] measured rotor speed, rad/s
   std::array<std::vector<double>, 3> w_B;  ///< p, q, r, rad/s
   std::array<std::vector<double>, 3> f_B;  ///< specific force, m/s^2
-  std::array<std::vector<double>, 4> q_WB;      ///< attitude, Hamilton, scalar first, body to world
-  std::array<std::vector<double>, 3> x_W;       ///< position NED, m
-  std::array<std::vector<double>, 3> v_W;       ///< velocity NED, m/s
-  std::vector<double> vbat;                     ///< V
-  std::vector<double> current;                  ///< A
-  std::vector<std::array<double, 2>> windows;   ///< parts to use, s; empty: all
+  std::array<std::vector<double>, 4> q_WB;     ///< attitude, Hamilton, scalar first, body to world
+  std::array<std::vector<double>, 3> x_W;      ///< position NED, m
+  std::array<std::vector<double>, 3> v_W;      ///< velocity NED, m/s
+  std::vector<double> vbat;                    ///< V
+  std::vector<double> current;                 ///< A
+  std::vector<std::array<double, 2>> windows;  ///< parts to use, s; empty: all
+  bool windows_found = false;  ///< they are from takeoff to landing, as the log tells; else they were chosen
   std::vector<std::array<double, 2>> left_out;  ///< parts not to use, [from, until) s
+  double loop = 0.0;  ///< s, of the controller, where the log states it and has each of its commands; else 0
   std::vector<double> breaks;  ///< s; the row after such a time does not continue the one at it
   std::vector<Warning> warnings;
   std::vector<std::string> notices;  ///< units, frames and rates as they were decided
@@ -38,5 +40,8 @@ struct FlightLog {
   bool has_position() const { return !x_W[0].empty(); }
   bool has_velocity() const { return !v_W[0].empty(); }
 };
+
+/// The windows of a log; where they were found, without what the ground may have pushed, s.
+std::vector<std::array<double, 2>> windows_off_ground(const FlightLog& log);
 
 }  // namespace ident

@@ -30,6 +30,7 @@
 #include "ident/flight/fit/held_out_validation.h"
 #include "ident/flight/fit/hover_priors.h"
 #include "ident/flight/fit/input_sensitivity.h"
+#include "ident/flight/fit/loop_timing.h"
 #include "ident/flight/fit/physical_inertia.h"
 #include "ident/flight/ladder/ladder.h"
 #include "ident/flight/prepare.h"
@@ -266,7 +267,10 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
   if (ladder && ends_along_motion(*ladder, entry, options))
     return refined_along_motion(std::move(result), vehicle, logs, entry, *ladder, options.shown);
   std::vector<FreeConstant> constants = free_constants(vehicle, p, options.free);
-  if (!record.signals.commands) leave_out_motors(constants);
+  if (!record.signals.commands)
+    leave_out_motors(constants);
+  else
+    leave_loop_open(constants, vehicle, p, logs);
   const std::vector<FreeConstant> known = constants;
   std::vector<std::string> held;
   if (is_hover(tested)) held = hold_for_hover(constants);
@@ -281,7 +285,8 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
   }
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   for (const VectorXd& moved :
-       {moved_by_rougher_speeds(record, theta, fit), moved_by_time(record.turns_apart, theta, fit)})
+       {moved_by_rougher_speeds(record, theta, fit), moved_by_time(record.turns_apart, theta, fit),
+        moved_by_smoothing(logs, theta, fit)})
     fit.covariance += moved * moved.transpose();
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);

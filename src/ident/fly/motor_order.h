@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ident/io/draft/frame_geometry.h"
+#include "ident/io/geometry/frame_geometry.h"
 
 namespace ident {
 

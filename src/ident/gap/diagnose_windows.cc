@@ -90,7 +90,8 @@ std::unique_ptr<Side> diagnosed(const FlightRecord& record, FitTo what, const Ve
   }
   const Rival rival = window_rival(side->model, side->search.best);
   if (what == FitTo::moments) side->missed = missed_share(side->model, side->shares.after);
-  side->verdict = settled(judge({found, seen, side->shares.shares, rival, {}, {}, {}, side->parameters}));
+  side->verdict =
+      settled(judge({found, seen, side->shares.shares, rival, {}, {}, {}, side->parameters, true}));
   return side;
 }
 

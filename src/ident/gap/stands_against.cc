@@ -33,6 +33,18 @@ bool worse(const std::vector<WindowErrors>& errors, const std::vector<WindowErro
 
 bool is_unsure(const Judged& verdict) { return verdict.status == "ambiguous" || verdict.status == "unknown"; }
 
+bool predicts_worse(const FlightRecord& record, const std::vector<double>& p,
+                    const std::vector<double>& than) {
+  if (!std::ranges::all_of(p, [](double x) { return std::isfinite(x); })) return true;
+  const FlightRecord rest = held_out_of(record, kTrainingShare);
+  const MeasuredMotion motion = measured_motion(rest);
+  if (!motion.forces || motion.arcs.empty()) return false;
+  const std::vector<WindowErrors> of_p = held_out_errors(motion, p), of_other = held_out_errors(motion, than);
+  for (std::size_t h = 0; h < kLadderHorizons.size(); ++h)
+    if (worse_beyond_chance(of_p, of_other, Metric::velocity, h, kByChance)) return true;
+  return false;
+}
+
 bool stands_against(const WindowDiagnosis& windows, const FlightRecord& record,
                     const std::vector<double>& whole, const Judged& verdict) {
   const FlightRecord rest = held_out_of(record, kTrainingShare);
@@ -53,16 +65,9 @@ bool stands_against(const WindowDiagnosis& windows, const FlightRecord& record,
 
 bool needs_no_windows(const LadderResult& ladder, const FlightRecord& record,
                       const std::vector<double>& whole, const Judged& verdict) {
-  if (is_unsure(verdict) || !std::ranges::all_of(whole, [](double x) { return std::isfinite(x); }))
-    return false;
-  const FlightRecord rest = held_out_of(record, kTrainingShare);
-  const MeasuredMotion motion = measured_motion(rest);
-  if (!motion.forces || motion.arcs.empty()) return false;
-  const std::vector<WindowErrors> of_whole = held_out_errors(motion, whole),
-                                  of_ladder = held_out_errors(motion, ladder.rungs[ladder.chosen].trained);
-  for (std::size_t h = 0; h < kLadderHorizons.size(); ++h)
-    if (worse_beyond_chance(of_whole, of_ladder, Metric::velocity, h, kByChance)) return false;
-  return true;
+  const MeasuredMotion motion = measured_motion(held_out_of(record, kTrainingShare));
+  return !is_unsure(verdict) && motion.forces && !motion.arcs.empty() &&
+         !predicts_worse(record, whole, ladder.rungs[ladder.chosen].trained);
 }
 
 }  // namespace ident

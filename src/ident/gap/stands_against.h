@@ -9,6 +9,11 @@ namespace ident {
 /// Whether a verdict names nothing that it is certain of, though something is there.
 bool is_unsure(const Judged& verdict);
 
+/// Whether a model predicts held-out velocity, attitude and rates as measured, worse beyond chance than
+/// another. Both by constants of the first part of the flight; one that is not finite is worse.
+bool predicts_worse(const FlightRecord& record, const std::vector<double>& p,
+                    const std::vector<double>& than);
+
 /// Whether a diagnosis along measured motion stands against one by a model of the whole flight (constants by
 /// the first part of the flight), by how both predict velocity on the rest, with attitude and rates as
 /// measured. It names a cause that the other does not, and the other predicts worse beyond chance by a

@@ -57,6 +57,7 @@ std::array<double, 2> spread(const FlightLog& flight, const std::vector<double>&
 
 std::string px4_setting(const LogStreams& log) {
   const int profile = log.whole_parameter("SDLOG_PROFILE").value_or(1);
+  if ((profile & 24) == 24) return "";  // motors come as often as they are told
   return fmt::format(
       "SDLOG_PROFILE {} (now {}): bit 3, system identification, and bit 4, high rate, log the motors' "
       "commands at full rate",
@@ -66,10 +67,13 @@ std::string px4_setting(const LogStreams& log) {
 std::string ardupilot_setting(const LogStreams& log) {
   constexpr int kFastAttitude = 1, kRawImu = 524288;  // bits of LOG_BITMASK
   const int mask = log.whole_parameter("LOG_BITMASK").value_or(176126);
-  return fmt::format(
-      "LOG_BITMASK {} (now {}): bit 0, fast attitude, and bit 19, raw IMU, log the rates' controller "
-      "and the sensors at the rate of the loop",
-      mask | kFastAttitude | kRawImu, mask);
+  std::vector<std::string> bits;
+  if ((mask & kFastAttitude) == 0)
+    bits.emplace_back("bit 0, fast attitude, logs the rates' controller, from which commands are rebuilt");
+  if ((mask & kRawImu) == 0) bits.emplace_back("bit 19, raw IMU, logs the sensors before their filters");
+  if (bits.empty()) return "";
+  return fmt::format("LOG_BITMASK {} (now {}): {}", mask | kFastAttitude | kRawImu, mask,
+                     fmt::join(bits, "; "));
 }
 
 std::string faster_commands(const LogStreams& log) {
@@ -98,7 +102,8 @@ std::string rotor_speeds(const LogStreams& log) {
 }
 
 std::string choose_setting(const LogStreams& log, const SignalRates& rates) {
-  if (rates.commands < kSeldom && rates.speeds < kSeldom) return faster_commands(log);
+  if (rates.commands < kSeldom)
+    if (std::string setting = faster_commands(log); !setting.empty()) return setting;
   if (log.format == "crazyflie") {
     if (rates.rates == 0) return "in config.txt of the card: gyro.x, gyro.y and gyro.z";
     if (rates.velocity == 0)
@@ -128,14 +133,15 @@ SignalRates signal_rates(const FlightLog& flight) {
   const auto rate = [&](std::span<const std::vector<double>> signal) {
     return median_rate(flight.t, signal, false);
   };
-  return {.commands = median_rate(flight.t, flight.delta, true),
-          .speeds = rate(flight.Omega),
-          .rates = rate(flight.w_B),
-          .specific_force = rate(flight.f_B),
-          .attitude = rate(flight.q_WB),
-          .velocity = rate(flight.v_W),
-          .position = rate(flight.x_W),
-          .battery = rate({&flight.vbat, 1})};
+  return {
+      .commands = median_rate(flight.t, flight.delta, true),
+      .speeds = flight.Omega.empty() ? 0.0 : rate({flight.Omega.data(), 1}),  // each at instants of its own
+      .rates = rate(flight.w_B),
+      .specific_force = rate(flight.f_B),
+      .attitude = rate(flight.q_WB),
+      .velocity = rate(flight.v_W),
+      .position = rate(flight.x_W),
+      .battery = rate({&flight.vbat, 1})};
 }
 
 Motion motion_of(const FlightLog& flight) {

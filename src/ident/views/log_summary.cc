@@ -38,6 +38,18 @@ double seconds_in_air(const FlightLog& flight) {
   return sum;
 }
 
+// " (15.8 to 70.8 s)", in the time that windows of a map are stated in.
+std::string when_in_air(const FlightLog& flight) {
+  if (flight.windows.empty()) return " (takeoff and landing are not logged: all of the log)";
+  std::vector<std::string> parts;
+  for (const auto& [from, until] : flight.windows)
+    parts.push_back(fmt::format("{:.1f} to {:.1f}", from, until));
+  constexpr std::size_t kShown = 4;
+  const std::size_t more = parts.size() > kShown ? parts.size() - kShown : 0;
+  parts.resize(parts.size() - more);
+  return fmt::format(" ({} s{})", fmt::join(parts, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 struct NamedRate {
   const char* name;
   double hz;
@@ -71,10 +83,8 @@ void tell_flight(const LogStreams& log, const FlightLog& flight, std::vector<std
   json["cannot_identify"] = advice.cannot;
   json["setting"] = advice.setting;
   json["movement"] = advice.movement;
-  lines.push_back(
-      fmt::format("in the air: {:.1f} s{}, {} motors", seconds_in_air(flight),
-                  flight.windows.empty() ? " (takeoff and landing are not logged: all of the log)" : "",
-                  std::max(flight.delta.size(), flight.Omega.size())));
+  lines.push_back(fmt::format("in the air: {:.1f} s{}, {} motors", seconds_in_air(flight),
+                              when_in_air(flight), std::max(flight.delta.size(), flight.Omega.size())));
   lines.push_back(fmt::format("signals:    {}", fmt::join(there, ", ")));
   if (!missing.empty()) lines.push_back(fmt::format("not logged: {}", fmt::join(missing, ", ")));
   if (const auto at = log.facts.find("commands"); at != log.facts.end()) {

@@ -169,6 +169,18 @@ TEST(Verdict, CausesThatAreNotNamedAreAmongTheNearest) {
   EXPECT_LT(verdict.causes[0].probability(), 0.5);
 }
 
+// Held-out flight at the floor without any cause: what is found may be the work of what is left.
+TEST(Verdict, WhereConstantsAloneComeDownToTheFloorACauseIsNotNamedBesideSomethingElse) {
+  Case c = one_cause();
+  c.shares.causes[0].share = {};
+  c.shares.without_causes = 1.0;
+  EXPECT_EQ(c.judged().effects, Names{"rotor_drag"});
+  c.lines.push_back({.channel = "Mx", .hz = 12.1, .height = 30, .share = 0.2});
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "unknown");
+  EXPECT_TRUE(seen.effects.empty());
+}
+
 TEST(Verdict, WhatRefittedConstantsCloseIsToldBeforeTheCausesShareTheRest) {
   Case c = one_cause();
   c.shares.without_causes = 2.0;  // of 10 times the floor: (100 - 4)/(100 - 1) are closed

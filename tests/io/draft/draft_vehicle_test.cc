@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "ident/core/error.h"
-#include "ident/io/draft/frame_geometry.h"
+#include "ident/io/geometry/frame_geometry.h"
 #include "ident/io/vehicle/vehicle_file.h"
 #include "ident/io/vehicle/vehicle_read.h"
 

@@ -1,6 +1,7 @@
 // Streams of a log become a flight log by a profile, line by line under a user's map.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -82,6 +83,60 @@ TEST(Profiles, OnlyTheTimeInTheAirIsUsed) {
   ASSERT_EQ(log.windows.size(), 1U);
   EXPECT_DOUBLE_EQ(log.windows[0][0], 2.0);
   EXPECT_DOUBLE_EQ(log.windows[0][1], 8.0);
+  // Sensors say nothing of flight on the ground and where it may push; commands from before still act.
+  for (const double t : {1.0, 2.5, 7.0, 9.0}) EXPECT_TRUE(std::isnan(log.w_B[0][row_at(log, t)])) << t;
+  EXPECT_TRUE(std::isfinite(log.w_B[0][row_at(log, 4.0)]));
+  EXPECT_TRUE(std::isfinite(log.delta[0][row_at(log, 1.005)]));
+}
+
+TEST(Profiles, AWindowThatWasChosenIsUsedToItsEnds) {
+  const LogMap user = parse_log_map("windows: [[1, 9]]\n", "mine.yaml");
+  const FlightLog log = flight_log_of(dataflash(), Vehicle{}, user);
+  for (const double t : {1.0, 2.5, 7.0, 9.0}) EXPECT_TRUE(std::isfinite(log.w_B[0][row_at(log, t)])) << t;
+  EXPECT_TRUE(std::isnan(log.w_B[0][row_at(log, 0.9)]));
+}
+
+TEST(Profiles, ASpeedControllerReportsUnderTheNumberOfItsOutput) {
+  LogStreams streams = dataflash();
+  LogStream esc{.name = "ESC", .clock = "", .t = {}, .fields = {}};
+  std::vector<std::uint8_t> instance;
+  std::vector<double> rpm;
+  for (int i = 0; i < 400; ++i) {
+    esc.t.push_back(0.003 + 0.02 * i);
+    instance.push_back(static_cast<std::uint8_t>(i % 4));
+    rpm.push_back(1000.0 * (1 + i % 4) + i);
+  }
+  esc.fields = {{"Instance", "", 1.0, instance}, {"RPM", "rpm", 1.0, rpm}};
+  streams.streams.push_back(esc);
+  const FlightLog log = flight_log_of(streams, Vehicle{}, {});
+  ASSERT_EQ(log.Omega.size(), 4U);
+  // Motor 1 hangs on output 3, whose instance is 2.
+  EXPECT_NEAR(log.Omega[0][row_at(log, 0.003 + 0.02 * 202)], (3000 + 202) * M_PI / 30, 1e-9);
+}
+
+TEST(Profiles, ALowPassThatTheLogStatesIsTakenBack) {
+  LogStreams streams = dataflash();
+  streams.parameters["INS_GYRO_FILTER"] = 5;
+  const FlightLog log = flight_log_of(streams, Vehicle{}, {});
+  const double w = 2 * M_PI * 5, t = 4.0, f = 7.0;
+  const double filtered = 0.5 * std::sin(f * t), rate = 0.5 * f * std::cos(f * t);
+  EXPECT_NEAR(log.w_B[0][row_at(log, t)], filtered + M_SQRT2 / w * rate - f * f * filtered / (w * w), 2e-3);
+  EXPECT_TRUE(std::ranges::any_of(log.notices, [](const std::string& notice) {
+    return notice.find("low-pass at 5 Hz") != std::string::npos;
+  }));
+}
+
+TEST(Profiles, ALogSaysWhetherItHasEachCommandOfTheLoop) {
+  LogStreams streams = dataflash();
+  EXPECT_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0);
+  streams.parameters["SCHED_LOOP_RATE"] = 400;
+  EXPECT_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0);
+  std::erase_if(streams.streams, [](const LogStream& s) { return s.name == "RCOU"; });
+  LogStream made{.name = "motor_commands", .clock = "", .t = times(0, 0.0025, 4000), .fields = {}};
+  for (int n = 0; n < 4; ++n)
+    made.fields.push_back({"motor[" + std::to_string(n) + "]", "", 1.0, wave(made.t, 0.5, 0.1, n)});
+  streams.streams.push_back(made);
+  EXPECT_DOUBLE_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0025);
 }
 
 TEST(Profiles, AMapOverridesSingleLines) {

@@ -113,6 +113,7 @@ bool HeldCommands::confirmed() const {
 
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit) {
+  if (std::ranges::all_of(logs, [](const FlightLog& log) { return log.loop > 0; })) return {};
   if (!record.signals.commands || !half_a_row_matters(record, logs, theta, fit)) return {};
   HeldCommands out{.rare = std::ranges::any_of(logs, commands_are_rarer_than_rates)};
   if (!out.rare && are_smooth(logs)) return out;

@@ -25,7 +25,8 @@ struct HeldCommands {
 };
 
 /// The same at a fit, its noise taken for known; expects nothing where commands hardly change from one to the
-/// next, or nothing is to be told from it. Takes two fits of the dead time.
+/// next, nothing is to be told from it, or logs have each command of a controller as they say. Takes two fits
+/// of the dead time.
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit);
 

@@ -33,13 +33,14 @@ std::vector<double> collective(const FlightLog& log) {
   return sum;
 }
 
-// Rows in flight: inside a window if there are windows, else where the rotors turn well above idle.
+// Rows in flight: inside a window that was chosen, else where the rotors turn well above idle between takeoff
+// and landing.
 std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings) {
   std::vector<bool> fly(log.rows(), log.windows.empty());
-  for (const auto& window : log.windows)
+  for (const auto& window : windows_off_ground(log))
     for (std::size_t i = 0; i < log.rows(); ++i)
       if (log.t[i] >= window[0] && log.t[i] <= window[1]) fly[i] = true;
-  if (!log.windows.empty()) return fly;
+  if (!log.windows.empty() && !log.windows_found) return fly;
   const std::vector<double> level = collective(log);
   std::vector<double> turning;
   for (const double x : level)
@@ -58,7 +59,7 @@ std::vector<bool> in_flight(const FlightLog& log, std::vector<Warning>& warnings
         fly[k - 1] = false, ++grounded;
     }
     for (; i < end; ++i)
-      if (log.t[i] < quiet_until) fly[i] = false, ++grounded;
+      if (log.t[i] < quiet_until && fly[i]) fly[i] = false, ++grounded;
   }
   if (grounded > 0 && grounded < log.rows()) {
     warnings.push_back(

@@ -22,6 +22,7 @@ struct JudgedCause {
 struct Judged {
   std::string status, sentence;
   std::vector<std::string> effects, confused_with;
+  std::vector<std::string> minor;       ///< certain, and together too small a part of the gap to be named
   std::vector<JudgedCause> causes;      ///< all that were found, named or not
   Share remaining;                      ///< of the gap, by what the causes named do not close
   Discrepancy rest;                     ///< what else is there
@@ -38,6 +39,7 @@ struct Seen {
   const std::vector<Burst>& jumps;
   const std::vector<Unsteady>& unsteady;
   const std::vector<Parameter>& fitted;
+  bool by_side = false;  ///< shares are of forces or of moments, whichever the causes act on
 };
 
 Judged judge(const Seen& seen);

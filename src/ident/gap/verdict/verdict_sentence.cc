@@ -24,9 +24,9 @@ std::string percent(const Share& share) {
 }
 
 // "battery_sag (77 % [70, 84] of the gap) and rotor_drag". `of`: what they share.
-std::string named(const Judged& verdict, std::string_view of) {
+std::string named(const std::vector<std::string>& names, const Judged& verdict, std::string_view of) {
   std::vector<std::string> out;
-  for (const std::string& name : verdict.effects) {
+  for (const std::string& name : names) {
     out.push_back(name);
     for (const JudgedCause& cause : verdict.causes)
       if (cause.evidence.name == name && std::isfinite(cause.share.value))
@@ -54,9 +54,14 @@ std::string unknown(const Judged& verdict, const Seen& seen) {
   if (!verdict.causes.empty()) {
     std::vector<std::string> nearest;
     for (const JudgedCause& cause : verdict.causes)
-      nearest.push_back(fmt::format("{} (probability {:.2f})", cause.evidence.name, cause.probability()));
-    out += fmt::format(" The nearest is {}: it would act like this, and more speaks against it.",
-                       fmt::join(nearest, " with "));
+      if (std::ranges::find(verdict.minor, cause.evidence.name) == verdict.minor.end())
+        nearest.push_back(fmt::format("{} (probability {:.2f})", cause.evidence.name, cause.probability()));
+    if (!verdict.minor.empty())
+      out += fmt::format(" {} {} too little to be the answer.", named(verdict.minor, verdict, "gap"),
+                         verdict.minor.size() > 1 ? "are" : "is");
+    if (!nearest.empty())
+      out += fmt::format(" The nearest is {}: it would act like this, and more speaks against it.",
+                         fmt::join(nearest, " with "));
   }
   if (!seen.search.ran_away.empty())
     out += fmt::format(" No model with {} could be flown along these logs.",
@@ -94,7 +99,7 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
       out = fmt::format("Constants, refitted within what is known of them, close {:.0f} % of the gap. ",
                         std::floor(100 * by_constants));
     const std::string_view of = mostly ? "rest" : "gap";
-    const std::string causes = named(verdict, of);
+    const std::string causes = named(verdict.effects, verdict, of);
     if (verdict.status == "partly")
       out += fmt::format("There is {}, and something else is left.", causes);
     else if (verdict.status == "identified")

@@ -1,7 +1,7 @@
 // Where the motors of a Betaflight quadrotor sit, and which way they turn, as its flight tells.
 #pragma once
 
-#include "ident/io/draft/frame_geometry.h"
+#include "ident/io/geometry/frame_geometry.h"
 
 namespace ident {
 

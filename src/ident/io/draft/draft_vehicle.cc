@@ -10,7 +10,7 @@
 #include "ident/core/format_number.h"
 #include "ident/io/draft/assumed_constants.h"
 #include "ident/io/draft/betaflight_geometry.h"
-#include "ident/io/draft/frame_geometry.h"
+#include "ident/io/geometry/frame_geometry.h"
 
 namespace ident {
 namespace {

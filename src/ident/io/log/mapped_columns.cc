@@ -12,10 +12,11 @@
 namespace ident {
 namespace {
 
-const std::vector<std::string> kColumnKeys = {"column", "unit",    "scale", "offset", "stream", "where",
-                                              "time",   "late_by", "nan",   "by",     "per",    "range"};
+const std::vector<std::string> kColumnKeys = {"column",  "unit", "scale", "offset", "stream", "where", "time",
+                                              "late_by", "nan",  "by",    "per",    "range",  "behind"};
 const std::vector<std::string> kLateKeys = {"column", "scale"};
 constexpr const char* kNumber = "{n}";
+constexpr std::string_view kOutput = "{output";  // of which `{output}`, `{output-1}` are made
 
 bool is_signal(const std::string& name) {
   return std::ranges::any_of(log_signals(kMostRotors),
@@ -43,9 +44,12 @@ std::string numbered(const std::string& text, int n) {
 void read_conditions(const YamlValue& where, int n, MappedColumn& mapped) {
   where.expect_map();
   for (const std::string& field : where.keys()) {
-    const std::optional<double> value = parse_number(numbered(where.at(field).text(), n));
+    std::string text = numbered(where.at(field).text(), n);
+    const bool of_output = text.starts_with(kOutput) && text.ends_with('}');
+    if (of_output) text = text.substr(kOutput.size(), text.size() - kOutput.size() - 1);
+    const std::optional<double> value = text.empty() ? 0.0 : parse_number(text);
     if (!value) where.at(field).fail("has to be a number");
-    mapped.where.push_back({field, *value});
+    mapped.where.push_back({field, *value, of_output});
   }
 }
 
@@ -74,6 +78,7 @@ MappedColumn read_column(const YamlValue& value, int n) {
     if (value.has("stream")) mapped.stream = numbered(value.at("stream").text(), n);
     if (value.has("nan")) mapped.nan_is = value.at("nan").number();
     if (value.has("time")) mapped.time = numbered(value.at("time").text(), n);
+    if (value.has("behind")) mapped.behind = value.at("behind").text();
     if (value.has("where")) read_conditions(value.at("where"), n, mapped);
     if (value.has("by")) mapped.by = value.at("by").text();
     if (value.has("per")) mapped.per = value.at("per").text();

@@ -23,7 +23,7 @@
 #include "ident/io/log_cleaning/log_spikes.h"
 #include "ident/io/log_formats/read_log_streams.h"
 #include "ident/io/log_formats/refusals.h"
-#include "ident/io/rebuild/px4_commands.h"
+#include "ident/io/rebuild/rebuilt_commands.h"
 
 namespace ident {
 namespace {
@@ -49,6 +49,8 @@ class Builder {
 
   FlightLog run() {
     check_time(log_, columns_.header_line, columns_.time_unit_stated);
+    take_windows();
+    leave_out_ground();
     take_commands();
     take_rotor_speeds();
     check_commands(log_);
@@ -66,7 +68,6 @@ class Builder {
     if (table_.find("qw")) check_quaternion(log_, columns_.header_line);
     turn_axes();
     judge();
-    take_windows();
     return std::move(log_);
   }
 
@@ -229,6 +230,25 @@ class Builder {
                                      to, rows, log_.file, log_.t.front(), log_.t.back()));
     }
     log_.windows = map_.windows;
+    log_.windows_found = !map_.windows.empty() && map_.windows_line == 0;
+  }
+
+  // What sensors showed outside the windows says nothing of flight: neither of their noise nor of their
+  // times. Commands stay, for motors follow those from before, and so does the battery.
+  void leave_out_ground() {
+    if (log_.windows.empty()) return;
+    std::vector<bool> used(log_.rows(), false);
+    for (const auto& [from, until] : windows_off_ground(log_))
+      for (std::size_t i = 0; i < log_.rows(); ++i)
+        if (log_.t[i] >= from && log_.t[i] <= until) used[i] = true;
+    for (auto& column : table_.columns) {
+      const std::string& name = column.name;
+      if (name == "t" || name == "vbat" || name == "current" || name.starts_with("delta") ||
+          highest_number({name}, "u") > 0)
+        continue;
+      for (std::size_t i = 0; i < used.size(); ++i)
+        if (!used[i]) column.values[i] = kNaN;
+    }
   }
 
   NumberTable table_;
@@ -256,7 +276,7 @@ FlightLog build(NumberTable table, const Vehicle& vehicle, const std::optional<L
 FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const std::optional<LogMap>& map) {
   if (!log_format_of_file(path).empty()) {
     LogStreams log = read_log_streams(path);
-    add_px4_commands(log);
+    add_rebuilt_commands(log);
     return flight_log_of(log, vehicle, map);
   }
   refuse_no_log(first_bytes(path, kRecognisedFrom), path);
@@ -269,7 +289,9 @@ FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const
 
 FlightLog flight_log_of(const LogStreams& log, const Vehicle& vehicle, const std::optional<LogMap>& map) {
   StreamTable streams = make_stream_table(log, vehicle, map_for_format(log.format, map));
-  return build(std::move(streams.table), streams.vehicle, streams.map, streams.columns);
+  FlightLog flight = build(std::move(streams.table), streams.vehicle, streams.map, streams.columns);
+  flight.loop = flight.has_commands() ? streams.loop : 0.0;
+  return flight;
 }
 
 }  // namespace ident

@@ -18,6 +18,7 @@ namespace ident {
 struct StreamCondition {
   std::string field;
   double is = 0.0;
+  bool of_output = false;  ///< `is` counts from the number of the output that drives the motor
 };
 
 /// Where a signal stands in a file: value = scale * number + offset, then the unit is converted. An empty
@@ -33,11 +34,12 @@ struct MappedColumn {
   std::string time;                    ///< field with times of this column's own, in us as the stream's clock
   std::string late_by;                 ///< field of the time by which a sample is late
   double late_by_scale = 1.0;          ///< s per unit of it
-  std::optional<double> nan_is;        ///< what a sample that is not a number stands for
-  std::string by, per;                 ///< parameters of the log that a number is multiplied with, divided by
-  std::array<std::string, 2> range;    ///< parameters that are 0 and 1 of the signal
-  bool must_be_there = false;          ///< a user named it: an error where it is not
-  int number = 0;                      ///< n, of a line that speaks of rotors as `delta{n}`
+  std::string behind;            ///< low-pass that the signal went through: parameter of its cutoff, or Hz
+  std::optional<double> nan_is;  ///< what a sample that is not a number stands for
+  std::string by, per;           ///< parameters of the log that a number is multiplied with, divided by
+  std::array<std::string, 2> range;     ///< parameters that are 0 and 1 of the signal
+  bool must_be_there = false;           ///< a user named it: an error where it is not
+  int number = 0;                       ///< n, of a line that speaks of rotors as `delta{n}`
   std::vector<MappedColumn> otherwise;  ///< in order of preference, where stream or column are not there
 };
 
@@ -60,10 +62,11 @@ struct LogMap {
   std::vector<std::array<double, 2>> windows;  ///< s, of the log's own clock
   long windows_line = 0;
   bool states_body = false, states_world = false;
-  std::vector<std::string> formats;     ///< of a profile: names of log_formats.def
-  std::vector<AirborneRule> airborne;   ///< of a profile
-  std::string output_function;          ///< parameter `SERVO{k}_FUNCTION` that says what output k drives
-  std::vector<double> motor_functions;  ///< its values for motor 1, 2, ...
+  std::vector<std::string> formats;          ///< of a profile: names of log_formats.def
+  std::vector<AirborneRule> airborne;        ///< of a profile
+  std::string output_function;               ///< parameter `SERVO{k}_FUNCTION` that says what output k drives
+  std::vector<double> motor_functions;       ///< its values for motor 1, 2, ...
+  std::vector<std::string> controller_rate;  ///< parameters with how often motors are told something, or Hz
   std::array<std::vector<std::string>, 2> command;  ///< parameters with the pulse widths of command 0 and 1
 };
 

@@ -9,7 +9,9 @@
 
 #include "ident/core/error.h"
 #include "ident/core/nearest_word.h"
+#include "ident/core/parse_number.h"
 #include "ident/io/csv/units.h"
+#include "ident/io/log/undo_low_pass.h"
 
 namespace ident {
 namespace {
@@ -117,6 +119,24 @@ class Finder {
                                  known_units(signal.dimension)));
   }
 
+  /// Of the low-pass that a signal went through, Hz; 0 where there is none, or the log does not state it.
+  double cutoff_of(const MappedColumn& mapped) const {
+    if (mapped.behind.empty()) return 0.0;
+    if (const std::optional<double> stated = parse_number(mapped.behind)) return *stated;
+    return log_.parameter(mapped.behind).value_or(0.0);
+  }
+
+  /// The same conditions with numbers; NaN, which no sample is, where no output drives the motor.
+  std::vector<StreamCondition> with_outputs(const MappedColumn& mapped) const {
+    std::vector<StreamCondition> where = mapped.where;
+    for (StreamCondition& condition : where) {
+      if (!condition.of_output) continue;
+      const std::optional<int> output = output_of(mapped.number);
+      condition.is = output ? *output + condition.is : kNaN;
+    }
+    return where;
+  }
+
   static bool is_taken(const LogStream& stream, const std::vector<StreamCondition>& where, std::size_t i) {
     return std::ranges::all_of(where, [&](const StreamCondition& condition) {
       const StreamField* field = stream.find(condition.field);
@@ -146,10 +166,11 @@ class Finder {
                        .column = source.field->name};
     const double unit = unit_of(mapped, signal.signal, *source.field);
     const std::vector<double> t = times(stream, mapped);
+    const std::vector<StreamCondition> where = with_outputs(mapped);
     bool any_number = false;
     long back = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
-      if (!mapped.where.empty() && !is_taken(stream, mapped.where, i)) continue;
+      if (!where.empty() && !is_taken(stream, where, i)) continue;
       double value = source.field->at(i);
       any_number = any_number || std::isfinite(value);
       if (!std::isfinite(value) && mapped.nan_is) value = *mapped.nan_is;
@@ -162,6 +183,10 @@ class Finder {
       found.values.push_back(unit * (line.factor * value + line.offset));
     }
     if (!any_number) found.t.clear();
+    if (const double cutoff = cutoff_of(mapped); cutoff > 0 && !found.t.empty()) {
+      found.unfiltered = cutoff;
+      undo_low_pass(found.t, found.values, cutoff);
+    }
     if (back > 0)
       out_.warnings.push_back(
           {"time_backward", fmt::format("{}: {} {}: time goes back in {} samples, which were dropped",

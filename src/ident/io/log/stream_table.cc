@@ -8,6 +8,8 @@
 #include <map>
 
 #include "ident/core/error.h"
+#include "ident/core/parse_number.h"
+#include "ident/core/statistics.h"
 #include "ident/io/log/airborne.h"
 #include "ident/io/log/stream_signals.h"
 
@@ -29,6 +31,7 @@ class Maker {
     take_command_range();
     expect_something();
     take_windows();
+    take_loop();
     fill();
     tell_sources();
     tell_damage();
@@ -133,6 +136,21 @@ class Maker {
         fmt::format("{}: {:.1f} s between takeoff and landing are used", log_.file, sum));
   }
 
+  /// Whether commands came as often as the controller makes them.
+  void take_loop() {
+    constexpr double kAsOften = 0.9;
+    const StreamSignal* commands = signals_.find("delta1");
+    if (!commands || commands->t.size() < 2) return;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < commands->t.size(); ++i) steps.push_back(commands->t[i] - commands->t[i - 1]);
+    const double step = median(std::move(steps));
+    for (const std::string& rate : out_.map.controller_rate)
+      if (const auto hz = parse_number(rate) ? parse_number(rate) : log_.parameter(rate); hz && *hz > 0) {
+        if (1 / step > kAsOften * *hz) out_.loop = 1 / *hz;
+        return;
+      }
+  }
+
   void fill() {
     std::vector<double> t;
     for (const StreamSignal& signal : signals_.list) t.insert(t.end(), signal.t.begin(), signal.t.end());
@@ -170,6 +188,13 @@ class Maker {
     for (const auto& [stream, names] : sources)
       text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", fmt::join(names, " "), stream);
     out_.table.notices.push_back(log_.file + ": " + text);
+    std::map<double, std::string> unfiltered;
+    for (const StreamSignal& signal : signals_.list)
+      if (signal.unfiltered > 0) unfiltered[signal.unfiltered] += signal.name + " ";
+    for (const auto& [cutoff, names] : unfiltered)
+      out_.table.notices.push_back(
+          fmt::format("{}: {}went through a low-pass at {:.4g} Hz on the vehicle, which was taken back",
+                      log_.file, names, cutoff));
     if (const auto commands = log_.facts.find("commands"); commands != log_.facts.end())
       out_.table.notices.push_back(log_.file + ": " + commands->second);
   }

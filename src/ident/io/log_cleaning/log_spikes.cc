@@ -43,18 +43,20 @@ std::array<double, count> quantiles(std::vector<double> values, const std::array
   return out;
 }
 
-// Rows between a jump of more than `limit` and one back that undoes it; single ones are spikes already.
+// Rows between a jump of more than `limit` and one back that undoes it; single ones are spikes already. What
+// comes to a peak step by step is motion: before the first jump and after the last nothing like it happens.
 void add_excursions(const std::vector<double>& t, const std::vector<double>& values,
                     const std::vector<std::size_t>& rows, double limit, std::vector<std::size_t>& spikes) {
   const auto jump = [&](std::size_t k) { return values[rows[k + 1]] - values[rows[k]]; };
   for (std::size_t from = 1; from + 3 < rows.size(); ++from) {
     const double up = jump(from);
-    if (!(std::abs(up) > limit)) continue;
-    for (std::size_t to = from + 1; to + 1 < rows.size(); ++to) {
+    const auto still = [&](std::size_t k) { return std::abs(jump(k)) < kAgree * std::abs(up); };
+    if (!(std::abs(up) > limit) || !still(from - 1)) continue;
+    for (std::size_t to = from + 1; to + 2 < rows.size(); ++to) {
       if (t[rows[to + 1]] - t[rows[from]] > kSudden) break;
       const double down = jump(to);
       if (std::abs(up + down) < kAgree * std::abs(up)) {
-        if (to > from + 1)
+        if (to > from + 1 && still(to + 1))
           for (std::size_t k = from + 1; k <= to; ++k) spikes.push_back(rows[k]);
         from = to;
         break;

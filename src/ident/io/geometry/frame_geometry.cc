@@ -1,5 +1,5 @@
 // Geometry out of parameters: PX4's rotors one by one, ArduPilot's frames by table.
-#include "ident/io/draft/frame_geometry.h"
+#include "ident/io/geometry/frame_geometry.h"
 
 #include <fmt/format.h>
 
