@@ -16,10 +16,7 @@ void doubt_all(Result& result, std::initializer_list<std::string_view> names, co
     if (std::ranges::find(names, p.name) != names.end()) p.doubt(why);
 }
 
-bool is_before_its_command(const Parameter& p) {
-  if (p.name != "dead_time" || !(p.value + 2 * p.std < 0)) return false;
-  return !(p.prior_value && p.prior_std && p.value > *p.prior_value - 2 * *p.prior_std);  // as was expected
-}
+bool is_before_its_command(const Parameter& p) { return p.name == "dead_time" && p.value + 2 * p.std < 0; }
 
 void doubt_negative_dead_time(Result& result) {
   const auto early = std::ranges::find_if(result.parameters, is_before_its_command);

@@ -12,7 +12,7 @@ namespace ident {
 /// Those of these names that a result has are not known, for that reason.
 void doubt_all(Result& result, std::initializer_list<std::string_view> names, const std::string& why);
 
-/// A dead time that is negative beyond chance, and beyond what was known of it: no motor has one.
+/// A dead time that is negative beyond chance, which no motor has.
 bool is_before_its_command(const Parameter& p);
 
 /// Warns (`negative_dead_time`) of such a one, which counts as not identifiable, nor does the rest of the

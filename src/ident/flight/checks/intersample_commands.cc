@@ -17,6 +17,7 @@
 #include "ident/flight/checks/command_rate.h"
 #include "ident/flight/checks/implausible_estimates.h"
 #include "ident/flight/fit/fit_steps.h"
+#include "ident/flight/fit/loop_timing.h"
 #include "ident/flight/record/command_history.h"
 
 namespace ident {
@@ -113,7 +114,7 @@ bool HeldCommands::confirmed() const {
 
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit) {
-  if (std::ranges::all_of(logs, [](const FlightLog& log) { return log.loop > 0; })) return {};
+  if (loop_of(logs) > 0) return {};
   if (!record.signals.commands || !half_a_row_matters(record, logs, theta, fit)) return {};
   HeldCommands out{.rare = std::ranges::any_of(logs, commands_are_rarer_than_rates)};
   if (!out.rare && are_smooth(logs)) return out;

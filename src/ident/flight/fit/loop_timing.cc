@@ -24,13 +24,19 @@ double apart(const std::vector<double>& t, const std::vector<double>& column) {
 
 }  // namespace
 
+double loop_of(std::span<const FlightLog> logs) {
+  double longest = 0;
+  for (const FlightLog& log : logs) {
+    if (!(log.loop > 0)) return 0;
+    longest = std::max(longest, log.loop);
+  }
+  return longest;
+}
+
 void leave_loop_open(std::vector<FreeConstant>& constants, const Vehicle& vehicle,
                      const std::vector<double>& p, std::span<const FlightLog> logs) {
-  double loop = 0;
-  for (const FlightLog& log : logs) {
-    if (!(log.loop > 0)) return;
-    loop = std::max(loop, log.loop);
-  }
+  const double loop = loop_of(logs);
+  if (!(loop > 0)) return;
   const auto is_it = [](const FreeConstant& c) { return c.index == param::dead_time; };
   auto at = std::ranges::find_if(constants, is_it);
   if (at == constants.end()) {
@@ -47,11 +53,10 @@ void leave_loop_open(std::vector<FreeConstant>& constants, const Vehicle& vehicl
 Eigen::VectorXd moved_by_smoothing(std::span<const FlightLog> logs, const Theta& theta,
                                    const FlightFit& fit) {
   Eigen::VectorXd du = Eigen::VectorXd::Zero(fit.u.size());
+  if (!(loop_of(logs) > 0)) return du;
   double T = 0;
-  for (const FlightLog& log : logs) {
-    if (!(log.loop > 0)) return du;
+  for (const FlightLog& log : logs)
     T = std::max({T, apart(log.t, log.w_B[0]), log.has_rotor_speeds() ? apart(log.t, log.Omega[0]) : 0.0});
-  }
   const std::vector<double> p = theta.p(fit.u);
   const double share = std::pow(p[param::omega_m] * T, 2) / 48;
   for (int i = 0; i < theta.constants_count(); ++i) {

@@ -10,6 +10,9 @@
 
 namespace ident {
 
+/// Longest loop of the controllers, s, where all logs state it and hold each command; else 0.
+double loop_of(std::span<const FlightLog> logs);
+
 /// Where logs state the loop of their controller and hold each of its commands, the stamp of a command says
 /// when it reached the motors to about a loop. The dead time is free then, about what was stated, known to
 /// one loop beside its own deviation. `p`: constants at the start.
