@@ -82,7 +82,7 @@ void doubt_seldom_commands(Result& result, const FlightRecord& record, std::span
   constexpr const char* kWhy = "what the motors were told between commands that far apart was not logged";
   if (seldom) doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
   if (!(seldom && early) && !rough_beyond(early ? kEarly : kSeldom)) return;
-  doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
+  doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz", "kQ"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
 }
 

@@ -135,7 +135,8 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
                                           : "commands may have gone on between those that were logged";
   doubt_all(result, {"omega_m", "zeta_m", "dead_time", "Jp"}, kWhy);
   const bool inertia = input_interval(record, logs) > kSlowCommands;
-  if (inertia) doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz"}, kWhy);
+  if (inertia)  // and kQ, of which yaw tells the ratio to Jzz
+    doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz", "kQ"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
   result.warn("commands_between_rows",
               fmt::format("{}. Motor constants{} are not identifiable. Log each command that is sent.",
@@ -144,7 +145,7 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
                                 "goes on in between, or the times of the rows are not those of the commands"
                               : "Commands were logged at a lower rate than the body rates, and the flight "
                                 "does not show that they held in between",
-                          inertia ? " and moments of inertia" : ""));
+                          inertia ? ", moments of inertia and kQ" : ""));
 }
 
 }  // namespace ident
