@@ -183,6 +183,7 @@ std::string verdict(const Result& result, double seconds) {
 
 void warn_of_filter_lag(Result& result, const Signals& logged) {
   if (!filter_lag_is_open(result, logged) || result.find("dead_time")) return;
+  doubt_all(result, {"omega_m", "zeta_m"}, "goes with the delay of filters, which is unknown");
   result.warn(
       "filter_lag",
       "Rates and specific force were filtered, and without attitude the delay of the filter is unknown. It "
@@ -221,8 +222,8 @@ void judge(Result& result, const Refined& refined, const SteadyPush& push, const
   warn_of_excess(result, pushed);
   if (const auto battery = battery_not_modelled(vehicle, logs)) result.warnings.push_back(*battery);
   doubt_passed_on(result, vibration);
-  warn_about(result, theta, fit);
   warn_of_filter_lag(result, record.signals);
+  warn_about(result, theta, fit);
   warn_of_inertia(result, theta, fit);
   warn_of_correlated(result);
 }

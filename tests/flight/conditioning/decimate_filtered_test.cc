@@ -177,6 +177,7 @@ TEST(WhitenedSensors, FilterLagIsReportedWithoutAttitude) {
   const Result held = refine_flight(stated, std::span(&log, 1), {.validate = false});
   EXPECT_TRUE(held.has_warning("filter_lag"));
   EXPECT_LT(held.find("omega_m")->value, 0.97 * omega_m);
+  EXPECT_FALSE(held.find("omega_m")->identifiable);
   expect_body(held, 0.03);
   const Result freed = refine_flight(stated, std::span(&log, 1), {.free = {"dead_time"}, .validate = false});
   EXPECT_FALSE(freed.has_warning("filter_lag"));
