@@ -48,7 +48,10 @@ struct VerdictCase {
     kT.pull = deviations, kT.from_flight = 0.9;
     fitted = {kT};
   }
-  Judged judged() const { return judge({search, gap, shares, rival, lines, jumps, unsteady, fitted}); }
+  bool by_side = false;  ///< shares are of the side on which the cause acts
+  Judged judged() const {
+    return judge({search, gap, shares, rival, lines, jumps, unsteady, fitted, by_side});
+  }
 };
 
 }  // namespace ident

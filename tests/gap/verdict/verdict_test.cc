@@ -169,16 +169,20 @@ TEST(Verdict, CausesThatAreNotNamedAreAmongTheNearest) {
   EXPECT_LT(verdict.causes[0].probability(), 0.5);
 }
 
-// Held-out flight at the floor without any cause: what is found may be the work of what is left.
-TEST(Verdict, WhereConstantsAloneComeDownToTheFloorACauseIsNotNamedBesideSomethingElse) {
+// Along measured motion, where shares are of the side on which a cause acts.
+TEST(Verdict, CausesThatCannotCloseATenthBetweenThemAreNoAnswer) {
   Case c = one_cause();
-  c.shares.causes[0].share = {};
-  c.shares.without_causes = 1.0;
-  EXPECT_EQ(c.judged().effects, Names{"rotor_drag"});
-  c.lines.push_back({.channel = "Mx", .hz = 12.1, .height = 30, .share = 0.2});
+  c.shares.causes[0].share = {0.05, {0.01, 0.07}};
+  c.shares.remaining = {0.95, {0.92, 1.0}};
+  c.by_side = true;
   const Judged seen = c.judged();
   EXPECT_EQ(seen.status, "unknown");
   EXPECT_TRUE(seen.effects.empty());
+  EXPECT_NE(seen.sentence.find("rotor_drag (5 % [1, 7] of the gap) is too little to be the answer"),
+            std::string::npos)
+      << seen.sentence;
+  c.shares.causes[0].share.ci95[1] = 0.12;
+  EXPECT_EQ(c.judged().effects, Names{"rotor_drag"});
 }
 
 TEST(Verdict, WhatRefittedConstantsCloseIsToldBeforeTheCausesShareTheRest) {

@@ -70,12 +70,11 @@ Share left_by(const std::vector<std::string>& named, const GapShares& shares) {
 // Whether a cause closes some of the gap of held-out flight beyond chance, named with causes that leave so
 // much. What does not is no cause of the gap, whatever its evidence on the flight that it was fitted to.
 // Where nothing material is left, shares are too small to tell; and what only changes readings moves no
-// vehicle. `by_constants`: these close most of the gap alone, beside something else; where they come down to
-// the floor there is nothing to share, and the evidence of a cause may be that one's.
-bool closes_some(const JudgedCause& cause, const Share& left, bool by_constants) {
-  if (cause.evidence.seen || traits_of(cause.evidence.name).of_mounting) return true;
-  if (!std::isfinite(cause.share.value)) return !by_constants;
-  if (left.value < kMaterial) return true;
+// vehicle.
+bool closes_some(const JudgedCause& cause, const Share& left) {
+  if (cause.evidence.seen || traits_of(cause.evidence.name).of_mounting ||
+      !std::isfinite(cause.share.value) || left.value < kMaterial)
+    return true;
   return cause.share.ci95[0] > 0 && left.value < 1;
 }
 
@@ -105,13 +104,12 @@ Judged judge(const Seen& seen) {
                           seen.search.explained(), left_by_form(seen.search), of_drive,
                           out.causes.empty() ? 1.0 : seen.shares.remaining.value});
   const bool something_else = out.rest.probability >= kClaimed;
-  const bool by_constants = something_else && closed_by_constants(seen.shares, seen.gap) > kMostly;
   for (const JudgedCause& cause : out.causes)
     if (cause.right >= kNamed && cause.in_sets >= kTold) out.effects.push_back(cause.evidence.name);
   const Share left = left_by(out.effects, seen.shares);
   std::vector<std::string> closing;  // of all found
   for (const JudgedCause& cause : out.causes)
-    if (closes_some(cause, left, by_constants)) closing.push_back(cause.evidence.name);
+    if (closes_some(cause, left)) closing.push_back(cause.evidence.name);
   std::erase_if(out.effects, [&](const std::string& name) { return !is_among(name, closing); });
   if (seen.by_side && !may_be_material(out, left)) out.minor = std::exchange(out.effects, {});
   std::vector<std::string> found, by_sets;
