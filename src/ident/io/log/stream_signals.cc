@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ident/core/error.h"
+#include "ident/core/math.h"
 #include "ident/core/nearest_word.h"
 #include "ident/core/parse_number.h"
 #include "ident/io/csv/units.h"
@@ -77,7 +78,7 @@ class Finder {
     if (column.find("{output") != std::string::npos) {
       const std::optional<int> output = output_of(mapped.number);
       if (!output) return {};
-      column = with_replaced(with(column, "{output}", std::to_string(*output)), "{output-1}",
+      column = with_replaced(with_replaced(column, "{output}", std::to_string(*output)), "{output-1}",
                              std::to_string(*output - 1));
     }
     if (!mapped.stream.empty()) {
