@@ -126,6 +126,18 @@ TEST(Profiles, ALowPassThatTheLogStatesIsTakenBack) {
   }));
 }
 
+TEST(Profiles, ALowPassThatAMapNamesAndTheLogDoesNotStateIsToldSo) {
+  const LogMap user =
+      parse_log_map("columns: {p: {stream: IMU, column: GyrX, behind: INS_GYRO_FILTR}}\n", "mine.yaml");
+  try {
+    flight_log_of(dataflash(), Vehicle{}, user);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'INS_GYRO_FILTR' is neither"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Profiles, ALogSaysWhetherItHasEachCommandOfTheLoop) {
   LogStreams streams = dataflash();
   EXPECT_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0);

@@ -124,7 +124,12 @@ class Finder {
   double cutoff_of(const MappedColumn& mapped) const {
     if (mapped.behind.empty()) return 0.0;
     if (const std::optional<double> stated = parse_number(mapped.behind)) return *stated;
-    return log_.parameter(mapped.behind).value_or(0.0);
+    const std::optional<double> cutoff = log_.parameter(mapped.behind);
+    if (!cutoff && mapped.must_be_there)
+      throw InputError(
+          map_.file, mapped.line, "behind",
+          fmt::format("'{}' is neither a number of Hz nor a parameter of the log", mapped.behind));
+    return cutoff.value_or(0.0);
   }
 
   /// The same conditions with numbers; NaN, which no sample is, where no output drives the motor.

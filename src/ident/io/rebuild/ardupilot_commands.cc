@@ -9,8 +9,10 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "ident/core/statistics.h"
 #include "ident/io/rebuild/ardupilot_thrust.h"
 
 namespace ident {
@@ -38,9 +40,7 @@ double usual_step(const std::vector<double>& t) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t.size(); ++i)
     if (t[i] > t[i - 1]) steps.push_back(t[i] - t[i - 1]);
-  if (steps.empty()) return 0;
-  std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-  return steps[steps.size() / 2];
+  return steps.empty() ? 0 : median(std::move(steps));
 }
 
 std::optional<double> first_positive(const LogStreams& log, std::initializer_list<const char*> names) {
