@@ -14,6 +14,7 @@ class Front {
  public:
   explicit Front(const Vehicle& v)
       : stages_(v.stack == Stack::betaflight),
+        biquad_(v.accel_biquad),
         gyro_(std::min(v.gyro_hz, kRate / 4), kRate),
         accel_(v.accel_hz, kRate),
         gyro_1_(1, 250, kRate),
@@ -23,10 +24,10 @@ class Front {
     accel_.reset(rest), accel_2_.reset(rest);
   }
   Vector3d gyro(const Vector3d& x) { return stages_ ? gyro_2_(gyro_1_(x)) : gyro_(x); }
-  Vector3d accel(const Vector3d& x) { return stages_ ? accel_2_(x) : accel_(x); }
+  Vector3d accel(const Vector3d& x) { return biquad_ ? accel_(x) : accel_2_(x); }
 
  private:
-  bool stages_;
+  bool stages_, biquad_;
   Butterworth gyro_, accel_;
   Stages gyro_1_, gyro_2_, accel_2_;
 };

@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
     const std::uint64_t own = seed * 1000 + index++;
     Vehicle v = make_vehicle(entry.stack, entry.name, own);
     v.thrust_model = entry.thrust_model;
+    v.accel_biquad = entry.stack != Stack::betaflight || entry.logging.old_firmware;
     const Flight flight = fly(v, own);
     const std::string folder = std::string(argv[1]) + "/" + entry.name;
     std::filesystem::create_directories(folder);

@@ -32,6 +32,7 @@ struct Vehicle {
   std::array<Rotor, 4> rotors;
   int control_steps;         // simulation steps for one run of the rate controller
   double gyro_hz, accel_hz;  // cut-offs of the autopilot's own filters
+  bool accel_biquad = true;  // else two first-order stages (Betaflight since 4.5)
   double thrust_model = 0;   // PX4's THR_MDL_FAC
 };
 

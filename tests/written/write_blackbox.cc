@@ -135,7 +135,7 @@ class Writer {
     }
     header("dshot_bidir", old_ ? "0" : "1");
     if (!old_) header("motor_poles", std::to_string(kPoles)), header("yaw_motors_reversed", "0");
-    header("acc_lpf_hz", std::to_string(whole(flight_.v.accel_hz)));
+    header("acc_lpf_hz", std::to_string(whole(100 * flight_.v.accel_hz)));
     header("acc_hardware", "1");
     header("motor_pwm_protocol", old_ ? "7" : "6");
     header("motor_pwm_rate", "480");

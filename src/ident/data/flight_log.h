@@ -26,7 +26,8 @@ struct FlightLog {
   std::vector<std::array<double, 2>> windows;  ///< parts to use, s; empty: all
   bool windows_found = false;  ///< they are from takeoff to landing, as the log tells; else they were chosen
   std::vector<std::array<double, 2>> left_out;  ///< parts not to use, [from, until) s
-  double loop = 0.0;  ///< s, of the controller, where the log states it and has each of its commands; else 0
+  double loop = 0.0;           ///< s, of the controller that makes the commands; 0: not stated
+  bool each_command = false;   ///< the log has all that it states to make
   std::vector<double> breaks;  ///< s; the row after such a time does not continue the one at it
   std::vector<Warning> warnings;
   std::vector<std::string> notices;  ///< units, frames and rates as they were decided

@@ -125,6 +125,25 @@ bool is_driven(const FlightArc& arc) {
          (!speeds.empty() && std::ranges::none_of(speeds, [](const auto& s) { return s.empty(); }));
 }
 
+// Median time between values of the sensor that has most of them. Rows alone do not tell it: streams with
+// times of their own make rows that may be microseconds apart.
+double sensor_interval(const FlightRecord& record) {
+  std::vector<double> most;
+  for (const int channel : {kGyro, kForce, kAttitude, kVelocity, kPosition}) {
+    std::vector<double> intervals;
+    for (const FlightArc& arc : record.arcs) {
+      double last = kNaN;
+      for (std::size_t i = 0; i < arc.rows(); ++i) {
+        if (!std::isfinite(arc.y[i * kChannels + static_cast<std::size_t>(channel)])) continue;
+        if (std::isfinite(last)) intervals.push_back(arc.t[i] - last);
+        last = arc.t[i];
+      }
+    }
+    if (intervals.size() > most.size()) most = std::move(intervals);
+  }
+  return median(most);
+}
+
 // Throws where some logs have commands and others do not: motors are simulated for all logs or for none.
 void require_like_inputs(std::span<const FlightLog> logs) {
   for (const FlightLog& log : logs)
@@ -168,18 +187,14 @@ FlightRecord make_flight_record(const Vehicle& vehicle, std::span<const double> 
         record.arcs.push_back(std::move(arc));
       }
   }
-  std::vector<double> intervals;
-  for (const FlightArc& arc : record.arcs) {
-    record.duration += arc.t.back() - arc.t.front();
-    for (std::size_t i = 1; i < arc.rows(); ++i) intervals.push_back(arc.t[i] - arc.t[i - 1]);
-  }
-  record.interval = median(intervals);
+  for (const FlightArc& arc : record.arcs) record.duration += arc.t.back() - arc.t.front();
   if (record.arcs.empty())
     throw DataError("no flight in these logs: no uninterrupted part of 0.3 s or more with turning rotors");
   if (!record.signals.rates && !record.signals.attitude && !record.signals.force &&
       !record.signals.velocity && !record.signals.position)
     throw DataError(
         "nothing that moves was logged: rates, attitude or specific force are needed, and a path helps");
+  record.interval = sensor_interval(record);
   take_out_velocity_bias(record);
   set_noise_and_motor_start(record, p);
   set_body_start(record);

@@ -287,7 +287,8 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
   if (options.bootstrap > 0) fit.covariance = bootstrap_covariance(fit, theta, options.bootstrap);
   for (const VectorXd& moved :
        {moved_by_rougher_speeds(record, theta, fit), moved_by_time(record.turns_apart, theta, fit),
-        moved_by_smoothing(logs, theta, fit), moved_by_time(loop_of(logs), theta, fit)})
+        moved_by_smoothing(logs, theta, fit), moved_by_time(loop_of(logs), theta, fit),
+        moved_by_time(commands_are_skipped(logs) ? input_interval(record, logs) / 2 : 0.0, theta, fit)})
     fit.covariance += moved * moved.transpose();
   FlightFit body = fit;
   body.smoother.reset(), body.u = nearest_body(theta, fit);

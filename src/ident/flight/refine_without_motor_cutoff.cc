@@ -16,6 +16,7 @@
 #include "ident/flight/record/arcs.h"
 #include "ident/flight/record/flight_record.h"
 #include "ident/flight/refine_along_motion.h"
+#include "ident/result/doubted_intervals.h"
 
 namespace ident {
 namespace {
@@ -108,7 +109,9 @@ std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
   return out;
 }
 
-Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
+namespace {
+
+Result refined_of_driven(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
   const auto driven = without_undriven(vehicle, logs);
   if (!driven) return refine_as_logged(vehicle, logs, options);
   // Nothing is estimated of motors along measured motion.
@@ -147,6 +150,14 @@ Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, co
   Result out = whole(*result, *driven);
   warn_not_driven(out, with);
   return out;
+}
+
+}  // namespace
+
+Result refine_flight(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
+  Result result = refined_of_driven(vehicle, logs, options);
+  widen_doubted(result.parameters);
+  return result;
 }
 
 }  // namespace ident

@@ -23,6 +23,7 @@
 #include "ident/gap/found_by_ladder.h"
 #include "ident/gap/stands_against.h"
 #include "ident/gap/views/verdict_json.h"
+#include "ident/result/doubted_intervals.h"
 #include "ident/views/data_health.h"
 
 namespace ident {
@@ -50,9 +51,7 @@ void warn_of_measured_motion(Result& result, bool misses_turning, const std::str
               reason + ": causes are looked for in forces and moments, attitude and rates as measured");
 }
 
-}  // namespace
-
-Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, const GapOptions& options) {
+Diagnosis diagnosed_gap(const Vehicle& stated, std::span<const FlightLog> logs, const GapOptions& options) {
   const Vehicle vehicle = with_doubted_effects(stated);
   Diagnosis out;
   Result& result = out.result;
@@ -99,6 +98,14 @@ Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, c
   }
   warn_of_measured_motion(windows->result, misses_turning && !whole, why);
   return *std::move(windows);
+}
+
+}  // namespace
+
+Diagnosis diagnose_gap(const Vehicle& stated, std::span<const FlightLog> logs, const GapOptions& options) {
+  Diagnosis out = diagnosed_gap(stated, logs, options);
+  widen_doubted(out.result.parameters);
+  return out;
 }
 
 }  // namespace ident

@@ -36,6 +36,7 @@
 #include "ident/gap/statistics/residual_wrench.h"
 #include "ident/gap/verdict/input_smoothing.h"
 #include "ident/gap/verdict/open_commands.h"
+#include "ident/gap/verdict/verdict_sentence.h"
 #include "ident/gap/verdict/out_of_balance.h"
 #include "ident/gap/verdict/seldom_input.h"
 #include "ident/gap/verdict/unnamed_values.h"
@@ -187,8 +188,12 @@ Looked diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
   out.trained = search.best.theta->p(seen.held_out.found);
   const GapClosed& gap = seen.held_out.judged;
   state_constants(result, search, vehicle, p, hover);
-  Judged verdict =
-      judge({search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, seen.unsteady, result.parameters});
+  const Seen rests_on{
+      search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, seen.unsteady, result.parameters};
+  Judged verdict = judge(rests_on);
+  if (commands == Commands::open)
+    verdict = with_open_commands(std::move(verdict), result.parameters, input_interval(record, logs),
+                                 [&](const Judged& left) { return sentence_of(left, rests_on); });
   doubt_negative_dead_time(result);
   warn_of_disagreement(result, "something that no cause found explains takes its place");
   const std::string wrong = disqualified(tested);
@@ -205,9 +210,7 @@ Looked diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
     verdict = with_jitter(std::move(verdict));
   }
   if (hidden) verdict = with_seldom_commands(std::move(verdict), *hidden);
-  if (commands == Commands::open)
-    verdict = with_open_commands(std::move(verdict), input_interval(record, logs));
-  else if (doubtful)
+  if (doubtful && commands == Commands::held)
     out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   warn_of_battery(result, verdict, vehicle, logs);
@@ -254,7 +257,11 @@ Looked looked_at(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
 
 WholeDiagnosis diagnose_whole(const Vehicle& vehicle, std::span<const FlightLog> logs,
                               const GapOptions& options, const FlightEntry& entry, const Result& begun) {
-  Looked seen = looked_at(vehicle, logs, options, entry, begun, Commands::held);
+  Looked seen;
+  if (skip_what_matters(entry.record, logs, entry.p))
+    seen.commands.skipped = true;
+  else
+    seen = looked_at(vehicle, logs, options, entry, begun, Commands::held);
   if (!seen.commands.doubtful()) return seen;
   try {
     Looked open = looked_at(with_open_motors(vehicle, input_interval(entry.record, logs)), logs, options,
@@ -264,6 +271,7 @@ WholeDiagnosis diagnose_whole(const Vehicle& vehicle, std::span<const FlightLog>
     open.adopted = with_stated_motors(std::move(open.adopted), vehicle);
     return open;
   } catch (const DataError&) {  // no model that stands
+    if (seen.commands.skipped) throw;
     doubt_commands_between_rows(seen.result, entry.record, logs, seen.commands);
     return seen;
   }

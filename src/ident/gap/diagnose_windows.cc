@@ -9,14 +9,19 @@
 #include <memory>
 
 #include "ident/core/stage_times.h"
+#include "ident/flight/checks/command_rate.h"
 #include "ident/flight/checks/gusts_expected.h"
+#include "ident/flight/checks/intersample_commands.h"
 #include "ident/flight/fit/fit_noise.h"
 #include "ident/flight/fit/fitted_parameters.h"
+#include "ident/flight/fit/loop_timing.h"
 #include "ident/flight/record/excerpts.h"
 #include "ident/gap/both_sides.h"
 #include "ident/gap/evidence/causes_tried.h"
 #include "ident/gap/evidence/motion_errors.h"
 #include "ident/gap/verdict/decision.h"
+#include "ident/gap/verdict/open_commands.h"
+#include "ident/gap/verdict/verdict_sentence.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/gap_where.h"
 #include "ident/gap/views/verdict_json.h"
@@ -69,10 +74,20 @@ std::vector<std::string> tried_on(const Side& side) {
   return names;
 }
 
+// Time between commands, s, where a controller may have gone on in between, as far as logs tell.
+std::optional<double> open_commands(const FlightRecord& record, std::span<const FlightLog> logs,
+                                    const std::vector<double>& p) {
+  if (!record.signals.commands) return {};
+  const bool rarer = loop_of(logs) == 0 && std::ranges::any_of(logs, commands_are_rarer_than_rates);
+  if (!rarer && !skip_what_matters(record, logs, p) && !hides_motion(record, logs)) return {};
+  return input_interval(record, logs);
+}
+
 // None where that side was not logged, or no model of it stands. Of what `told` tells, causes and constants,
-// nothing is said again.
+// nothing is said again. `open`: time between commands, s, where a controller went on in between.
 std::unique_ptr<Side> diagnosed(const FlightRecord& record, FitTo what, const Vehicle& vehicle,
-                                const std::vector<double>& p, const GapOptions& options, const Side* told) {
+                                const std::vector<double>& p, const GapOptions& options, const Side* told,
+                                std::optional<double> open) {
   auto side = std::make_unique<Side>(record, what, told ? tried_on(*told) : std::vector<std::string>{});
   if (!side->model.tells()) return {};
   side->search = search_windows(side->model, vehicle, p, options.exclude, options.most_causes);
@@ -90,8 +105,11 @@ std::unique_ptr<Side> diagnosed(const FlightRecord& record, FitTo what, const Ve
   }
   const Rival rival = window_rival(side->model, side->search.best);
   if (what == FitTo::moments) side->missed = missed_share(side->model, side->shares.after);
-  side->verdict =
-      settled(judge({found, seen, side->shares.shares, rival, {}, {}, {}, side->parameters, true}));
+  const Seen rests_on{found, seen, side->shares.shares, rival, {}, {}, {}, side->parameters, true};
+  side->verdict = settled(judge(rests_on));
+  if (open)
+    side->verdict = with_open_commands(std::move(side->verdict), side->parameters, *open,
+                                       [&](const Judged& left) { return sentence_of(left, rests_on); });
   return side;
 }
 
@@ -170,16 +188,18 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
                                                 const std::optional<FoundByLadder>& found_before) {
   const Stage stage("along measured motion");
   const FlightRecord& record = entry.record;
-  const Vehicle vehicle = found_before ? with_found(stated, *found_before) : stated;
+  const std::optional<double> open = open_commands(record, logs, entry.p);
+  const Vehicle begin = open ? with_open_motors(stated, *open) : stated;
+  const Vehicle vehicle = found_before ? with_found(begin, *found_before) : begin;
   const std::vector<double> start = found_before ? with_found(entry.p, *found_before) : entry.p;
-  const std::unique_ptr<Side> forces = diagnosed(record, FitTo::forces, vehicle, start, options, nullptr);
+  const std::unique_ptr<Side> forces = diagnosed(record, FitTo::forces, vehicle, start, options, nullptr, open);
   Vehicle known = vehicle;
   std::vector<double> p = start;
   if (forces) {
     const FittedModel& best = forces->search.result.best;
     known = held_at(adopted_vehicle(vehicle, best), *forces), p = best.theta->p(best.fit.u);
   }
-  const std::unique_ptr<Side> moments = diagnosed(record, FitTo::moments, known, p, options, forces.get());
+  const std::unique_ptr<Side> moments = diagnosed(record, FitTo::moments, known, p, options, forces.get(), open);
   if (!forces && !moments) return {};
   WindowDiagnosis out;
   Result& result = out.result;
@@ -190,6 +210,7 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
     result.parameters = with_found(std::move(result.parameters), *found_before);
     verdict = with_found(std::move(verdict), *found_before);
   }
+  if (open) doubt_open_motors(result, stated);
   const Side& main =
       forces && (!moments || !forces->verdict.effects.empty() || moments->verdict.effects.empty()) ? *forces
                                                                                                    : *moments;
@@ -233,6 +254,7 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
   result.sections = gap_sections(result.extra, before, after);
   result.sections.push_back(data_health(record, logs, initial_noise(record), entry.vibration));
   out.adopted = adopted_of(vehicle, forces.get(), moments.get());
+  if (open) out.adopted = with_stated_motors(std::move(out.adopted), stated);
   out.verdict = std::move(verdict);
   return out;
 }

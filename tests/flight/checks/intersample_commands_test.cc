@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ident/flight/checks/command_rate.h"
+#include "ident/flight/fit/loop_timing.h"
 #include "ident/flight/make_record.h"
 #include "ident/flight/record/command_history.h"
 #include "ident/flight/refine.h"
@@ -57,6 +58,16 @@ TEST(HeldCommands, AreRefutedByMoreThanChance) {
 }
 
 // An offset of the command is told by how thrust goes with it, and what was flown in between is not known.
+TEST(HeldCommands, ThatALogStatesToHaveSkippedAreRefuted) {
+  EXPECT_TRUE((HeldCommands{.better = 100.0, .expected = 100.0, .skipped = true}).refuted());
+  FlightLog log;
+  EXPECT_FALSE(commands_are_skipped(std::vector<FlightLog>{log}));
+  log.loop = 0.0025;
+  EXPECT_TRUE(commands_are_skipped(std::vector<FlightLog>{log}));
+  log.each_command = true;
+  EXPECT_FALSE(commands_are_skipped(std::vector<FlightLog>{log}));
+}
+
 TEST(HeldCommands, RefutedLeaveOpenAnOffsetThatTheyAskedFor) {
   const Vehicle vehicle = testing::known(testing::quad());
   const std::vector<FlightLog> logs{flown(250)};

@@ -14,7 +14,7 @@ namespace {
 
 FlightLog with_loop(double loop, double apart) {
   FlightLog log;
-  log.loop = loop;
+  log.loop = loop, log.each_command = loop > 0;
   for (int i = 0; i < 50; ++i) log.t.push_back(apart * i), log.w_B[0].push_back(0.0);
   return log;
 }

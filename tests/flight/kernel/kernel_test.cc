@@ -128,7 +128,7 @@ TEST(FlightKernel, LongStepsPredictTheRowsWithinThem) {
     EXPECT_NEAR(longest.cost, fine.cost, 1e-4 * fine.cost) << shift;
     const auto d = static_cast<std::size_t>(s.record.layout.size + s.theta.size());
     for (std::size_t i = 0; i < d; ++i)
-      EXPECT_NEAR(longest.A[i * d + i], fine.A[i * d + i], 2e-3 * fine.A[i * d + i]) << shift << " " << i;
+      EXPECT_NEAR(longest.A[i * d + i], fine.A[i * d + i], 4e-3 * fine.A[i * d + i]) << shift << " " << i;
     task.jacobian = false;
     evaluate_chunk(task, longest);
     task.steps = Steps::fine;
@@ -162,7 +162,7 @@ TEST(FlightKernel, GradientIsThatOfTheCost) {
     evaluate_chunk(tb, down);
     const double numeric = (up.cost - down.cost) / (2 * h),
                  analytic = 2 * exact.g[static_cast<std::size_t>(s.record.layout.size + i)];
-    EXPECT_NEAR(analytic, numeric, 1e-4 * std::abs(numeric) + 1e-5) << s.theta.name(i);
+    EXPECT_NEAR(analytic, numeric, 1e-4 * std::abs(numeric) + 2e-5) << s.theta.name(i);
   }
 }
 

@@ -73,7 +73,7 @@ TEST(OpenCommands, LeaveMotorsOpen) {
 TEST(OpenCommands, PassForMotorsAndTakeNothingBackOfOtherCauses) {
   const auto judged = [](std::vector<std::string> effects) {
     return with_open_commands({.status = "identified", .sentence = "Named.", .effects = std::move(effects)},
-                              0.01);
+                              {}, 0.01, [](const Judged&) { return "Of what is left."; });
   };
   EXPECT_EQ(judged({"rotor_drag"}).status, "identified");
   EXPECT_NE(judged({"rotor_drag"}).sentence.find("were left open"), std::string::npos);
@@ -85,6 +85,20 @@ TEST(OpenCommands, PassForMotorsAndTakeNothingBackOfOtherCauses) {
     EXPECT_NE(verdict.sentence.find("100 a second"), std::string::npos) << verdict.sentence;
     EXPECT_EQ(judged({cause}).status, "unknown") << cause;
   }
+}
+
+// Aliased commands ask for a thrust curve of a tenth; of 0.4 it is one.
+TEST(OpenCommands, PassForAThrustCurveOfTheirSize) {
+  const auto named = [](double c, double offset) {
+    const std::vector<Parameter> found{{.name = "thrust_curve.c", .value = c, .std = 0.01},
+                                       {.name = "thrust_curve.offset", .value = offset, .std = 0.02}};
+    return !with_open_commands({.status = "identified", .sentence = "Named.", .effects = {"thrust_curve"}},
+                               found, 0.02, [](const Judged&) { return "Of what is left."; })
+                .effects.empty();
+  };
+  EXPECT_FALSE(named(-0.05, -0.13));
+  EXPECT_TRUE(named(-0.44, 0.15));
+  EXPECT_TRUE(named(0.0, -0.5));
 }
 
 }  // namespace

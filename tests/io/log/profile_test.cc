@@ -122,7 +122,7 @@ TEST(Profiles, ALowPassThatTheLogStatesIsTakenBack) {
   const double filtered = 0.5 * std::sin(f * t), rate = 0.5 * f * std::cos(f * t);
   EXPECT_NEAR(log.w_B[0][row_at(log, t)], filtered + M_SQRT2 / w * rate - f * f * filtered / (w * w), 2e-3);
   EXPECT_TRUE(std::ranges::any_of(log.notices, [](const std::string& notice) {
-    return notice.find("low-pass at 5 Hz") != std::string::npos;
+    return notice.find("low-pass on the vehicle, 45 ms late") != std::string::npos;
   }));
 }
 
@@ -142,13 +142,16 @@ TEST(Profiles, ALogSaysWhetherItHasEachCommandOfTheLoop) {
   LogStreams streams = dataflash();
   EXPECT_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0);
   streams.parameters["SCHED_LOOP_RATE"] = 400;
-  EXPECT_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0);
   std::erase_if(streams.streams, [](const LogStream& s) { return s.name == "RCOU"; });
   LogStream made{.name = "motor_commands", .clock = "", .t = times(0, 0.0025, 4000), .fields = {}};
   for (int n = 0; n < 4; ++n)
     made.fields.push_back({"motor[" + std::to_string(n) + "]", "", 1.0, wave(made.t, 0.5, 0.1, n)});
   streams.streams.push_back(made);
   EXPECT_DOUBLE_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.0025);
+  EXPECT_TRUE(flight_log_of(streams, Vehicle{}, {}).each_command);
+  streams.parameters["SCHED_LOOP_RATE"] = 800;
+  EXPECT_DOUBLE_EQ(flight_log_of(streams, Vehicle{}, {}).loop, 0.00125);
+  EXPECT_FALSE(flight_log_of(streams, Vehicle{}, {}).each_command);
 }
 
 TEST(Profiles, AMapOverridesSingleLines) {

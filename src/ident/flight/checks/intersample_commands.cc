@@ -41,9 +41,8 @@ bool are_smooth(std::span<const FlightLog> logs) {
 }
 
 // To the motors: of 1 kHz logs it does not.
-bool half_a_row_matters(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
-                        const FlightFit& fit) {
-  const std::vector<double> p = theta.p(fit.u);
+bool half_a_row_matters(const FlightRecord& record, std::span<const FlightLog> logs,
+                        std::span<const double> p) {
   return input_interval(record, logs) / 2 > kMatters * 2 * p[param::zeta_m] / p[param::omega_m];
 }
 
@@ -103,6 +102,7 @@ double square_between(const FlightSmoother::Along& a, const FlightSmoother::Alon
 }  // namespace
 
 bool HeldCommands::refuted() const {
+  if (skipped) return true;
   const double less = expected - better, chance = 2 * std::sqrt(expected);
   return less > std::max(kGoodPart * expected, kBeyondChance * chance) ||
          -less > std::max((expected < kLittle ? kMuchMore : kGoodPart) * expected, kFarBeyondChance * chance);
@@ -112,10 +112,16 @@ bool HeldCommands::confirmed() const {
   return expected > kTold && std::abs(better - expected) < kNearIt * expected;
 }
 
+bool skip_what_matters(const FlightRecord& record, std::span<const FlightLog> logs,
+                       std::span<const double> p) {
+  return record.signals.commands && commands_are_skipped(logs) && half_a_row_matters(record, logs, p);
+}
+
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit) {
   if (loop_of(logs) > 0) return {};
-  if (!record.signals.commands || !half_a_row_matters(record, logs, theta, fit)) return {};
+  if (!record.signals.commands || !half_a_row_matters(record, logs, theta.p(fit.u))) return {};
+  if (commands_are_skipped(logs)) return {.skipped = true};
   HeldCommands out{.rare = std::ranges::any_of(logs, commands_are_rarer_than_rates)};
   if (!out.rare && are_smooth(logs)) return out;
   const Theta own = with_free_dead_time(record, theta, fit);
@@ -140,7 +146,9 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
   result.warn("commands_between_rows",
               fmt::format("{}. Motor constants{} are not identifiable. Log each command that is sent.",
-                          held.refuted()
+                          held.skipped ? "As the log states, its controller goes on between the commands that "
+                                         "were logged"
+                          : held.refuted()
                               ? "The flight contradicts commands that hold from row to row: the controller "
                                 "goes on in between, or the times of the rows are not those of the commands"
                               : "Commands were logged at a lower rate than the body rates, and the flight "

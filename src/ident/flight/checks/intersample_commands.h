@@ -15,6 +15,7 @@ struct HeldCommands {
   double better = 0.0;    ///< fall of the cost
   double expected = 0.0;  ///< that, if they did hold: the square of what the two predictions differ by
   bool rare = false;  ///< logged more seldom than the rates that a controller answers to, and it would matter
+  bool skipped = false;  ///< the log states that there were others, and it matters
 
   /// Whether the flight says that they did not: by more than chance, and by a good part.
   bool refuted() const;
@@ -24,9 +25,13 @@ struct HeldCommands {
   bool doubtful() const { return refuted() || (rare && !confirmed()); }
 };
 
+/// Whether logs state that commands were skipped, and half the time between those that are there matters to
+/// the motors with constants `p`.
+bool skip_what_matters(const FlightRecord& record, std::span<const FlightLog> logs, std::span<const double> p);
+
 /// The same at a fit, its noise taken for known; expects nothing where commands hardly change from one to the
 /// next, nothing is to be told from it, or logs have each command of a controller as they say. Takes two fits
-/// of the dead time.
+/// of the dead time, none where a log states that commands were skipped.
 HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog> logs, const Theta& theta,
                            const FlightFit& fit);
 

@@ -27,10 +27,14 @@ double apart(const std::vector<double>& t, const std::vector<double>& column) {
 double loop_of(std::span<const FlightLog> logs) {
   double longest = 0;
   for (const FlightLog& log : logs) {
-    if (!(log.loop > 0)) return 0;
+    if (!(log.loop > 0) || !log.each_command) return 0;
     longest = std::max(longest, log.loop);
   }
   return longest;
+}
+
+bool commands_are_skipped(std::span<const FlightLog> logs) {
+  return std::ranges::any_of(logs, [](const FlightLog& log) { return log.loop > 0 && !log.each_command; });
 }
 
 void leave_loop_open(std::vector<FreeConstant>& constants, const Vehicle& vehicle,
@@ -53,10 +57,12 @@ void leave_loop_open(std::vector<FreeConstant>& constants, const Vehicle& vehicl
 Eigen::VectorXd moved_by_smoothing(std::span<const FlightLog> logs, const Theta& theta,
                                    const FlightFit& fit) {
   Eigen::VectorXd du = Eigen::VectorXd::Zero(fit.u.size());
-  if (!(loop_of(logs) > 0)) return du;
+  const bool skipped = commands_are_skipped(logs);
+  if (!(loop_of(logs) > 0) && !skipped) return du;
   double T = 0;
   for (const FlightLog& log : logs)
-    T = std::max({T, apart(log.t, log.w_B[0]), log.has_rotor_speeds() ? apart(log.t, log.Omega[0]) : 0.0});
+    T = std::max({T, apart(log.t, log.w_B[0]), log.has_rotor_speeds() ? apart(log.t, log.Omega[0]) : 0.0,
+                  skipped && log.has_commands() ? apart(log.t, log.delta[0]) : 0.0});
   const std::vector<double> p = theta.p(fit.u);
   const double share = std::pow(p[param::omega_m] * T, 2) / 48;
   for (int i = 0; i < theta.constants_count(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 
 using Effects = EffectSet<double>;
 using Vehicles = Flight<double, Effects>;
-using Motors = std::array<MotorState<double>, kMaxRotors>;
+using Motors = MotorsAlong::Motors;
 
 constexpr double kSpacing = 0.5;     // s between windows
 constexpr double kTumbling = 200.0;  // rad/s: no vehicle turns faster, and no prediction is worse than that
@@ -53,17 +53,13 @@ BodyState<double> turned(BodyState<double> body, const BodyRate<double>& rate, d
   return body;
 }
 
-// One step of Heun's rule in attitude and rates, velocity, position and motors being given at both ends.
+// One step of the midpoint rule in attitude and rates; velocity and position are those measured.
 BodyState<double> turned_on(const Body<double, Effects>& model, const BodyState<double>& from,
-                            const BodyState<double>& measured, const Motors& before, const Motors& after,
-                            double h, std::size_t rotors) {
-  const BodyRate<double> first = model.rate(from, std::span(before.data(), rotors));
-  BodyState<double> to = turned(from, first, h);
-  to.v_W = measured.v_W, to.x_W = measured.x_W;
-  const BodyRate<double> last = model.rate(to, std::span(after.data(), rotors));
-  BodyRate<double> mean = first;
-  mean.q_dot = 0.5 * (first.q_dot + last.q_dot), mean.w_dot_B = 0.5 * (first.w_dot_B + last.w_dot_B);
-  to = turned(from, mean, h);
+                            const BodyState<double>& measured, std::span<const MotorState<double>> motors,
+                            double h) {
+  BodyState<double> middle = turned(from, model.rate(from, motors), h / 2);
+  middle.v_W = 0.5 * (from.v_W + measured.v_W), middle.x_W = 0.5 * (from.x_W + measured.x_W);
+  BodyState<double> to = turned(from, model.rate(middle, motors), h);
   to.v_W = measured.v_W, to.x_W = measured.x_W;
   return to;
 }
@@ -86,8 +82,8 @@ void predict_turning(WindowErrors& errors, const Prediction& by, const Vehicles&
   for (std::size_t i = begin; i < last; ++i) {
     const MotorsAlong& motors = *by.along[errors.arc].motors;
     if (body.w_B.norm() < kTumbling)
-      body = turned_on(flight.body(), body, measured.body[i + 1], motors[i], motors[i + 1], t[i + 1] - t[i],
-                       rotors);
+      body = turned_on(flight.body(), body, measured.body[i + 1], std::span(motors.between[i].data(), rotors),
+                       t[i + 1] - t[i]);
     for (std::size_t h = 0; h < ends.size(); ++h) {
       if (ends[h] != i + 1) continue;
       errors.of[at(Metric::rate)][h] = size_of(body.w_B - measured.body[i + 1].w_B, kTumbling);
@@ -101,7 +97,7 @@ void predict_all(WindowErrors& errors, const Prediction& by, Vehicles& flight, s
   const MeasuredArc& measured = by.motion.arcs[errors.arc];
   const std::vector<double>& t = measured.t;
   FlightState<double> state{};
-  state.body = measured.body[begin], state.motors = (*by.along[errors.arc].motors)[begin];
+  state.body = measured.body[begin], state.motors = by.along[errors.arc].motors->at[begin];
   BodyRate<double> rate = flight.rate(state, t[begin]);
   const std::size_t last = *std::ranges::max_element(ends);
   for (std::size_t i = begin; i < last; ++i) {
@@ -130,7 +126,7 @@ double apart(const RotorSpeeds& measured, const Motors& model, std::size_t rotor
 void predict_speeds(WindowErrors& errors, const Prediction& by, Vehicles& flight, std::size_t begin,
                     std::span<const std::size_t> ends) {
   const std::vector<double>& t = by.motion.arcs[errors.arc].t;
-  Motors motors = (*by.along[errors.arc].motors)[begin];
+  Motors motors = by.along[errors.arc].motors->at[begin];
   const std::size_t last = *std::ranges::max_element(ends);
   for (std::size_t i = begin; i < last; ++i) {
     flight.advance(motors, t[i], t[i + 1] - t[i]);

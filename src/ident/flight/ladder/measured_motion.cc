@@ -36,19 +36,31 @@ std::vector<Vec3<double>> integral_of_force(const FlightArc& arc,
   return sum;
 }
 
-// Every so many rows.
+// Rows kRow apart, as near as there are: streams with times of their own make rows that are closer by far.
+std::vector<std::size_t> rows_looked_at(const std::vector<double>& t) {
+  constexpr double kAlike = 1e-6;  // s
+  std::vector<std::size_t> rows{0};
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double next = t[rows.back()] + kRow;
+    const bool nearer_follows = i + 1 < t.size() && std::abs(t[i + 1] - next) <= std::abs(t[i] - next) + kAlike;
+    if (t[i] >= next - kRow / 2 && !nearer_follows) rows.push_back(i);
+  }
+  return rows;
+}
+
 template <class T>
-std::vector<T> thinned(const std::vector<T>& all, std::size_t every) {
+std::vector<T> at_rows(const std::vector<T>& all, const std::vector<std::size_t>& rows) {
   std::vector<T> some;
-  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
+  some.reserve(rows.size());
+  for (const std::size_t i : rows) some.push_back(all[i]);
   return some;
 }
 
-void thin_out(MeasuredArc& measured, double interval) {
-  const auto every = static_cast<std::size_t>(std::max(1.0, std::floor(kRow / interval + 0.5)));
-  measured.t = thinned(measured.arc->t, every);
-  measured.body = thinned(measured.body, every), measured.gained_W = thinned(measured.gained_W, every);
-  for (std::size_t i = 0; i < measured.arc->rows(); i += every) measured.row.push_back(i);
+void thin_out(MeasuredArc& measured) {
+  measured.row = rows_looked_at(measured.arc->t);
+  measured.t = at_rows(measured.arc->t, measured.row);
+  measured.body = at_rows(measured.body, measured.row);
+  if (!measured.gained_W.empty()) measured.gained_W = at_rows(measured.gained_W, measured.row);
 }
 
 }  // namespace
@@ -73,7 +85,7 @@ MeasuredMotion measured_motion(const FlightRecord& record) {
       measured.gained_W = integral_of_force(arc, measured.body);
     }
     if (motion.forces && measured.gained_W.empty()) continue;
-    thin_out(measured, record.interval);
+    thin_out(measured);
     motion.arcs.push_back(std::move(measured));
   }
   return motion;

@@ -9,8 +9,12 @@
 
 namespace ident {
 
-/// The rotors at each row that is looked at, from the commands or measured.
-using MotorsAlong = std::vector<std::array<MotorState<double>, kMaxRotors>>;
+/// The rotors along an arc, from the commands or measured.
+struct MotorsAlong {
+  using Motors = std::array<MotorState<double>, kMaxRotors>;
+  std::vector<Motors> at;       ///< [row looked at]
+  std::vector<Motors> between;  ///< [row looked at] up to the next: speeds of the mean thrust, mean derivatives
+};
 
 /// Along one arc; attitude, rates, velocity and position are those measured.
 struct ModelAlong {

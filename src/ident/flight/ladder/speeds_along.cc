@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ident/core/math.h"
+#include "ident/flight/record/motor_start.h"
 
 namespace ident {
 namespace {
@@ -17,12 +18,10 @@ std::vector<RotorSpeeds> along(const MeasuredArc& measured, const Vehicle& vehic
                                std::span<const double> p) {
   const EffectSet<double> effects(p, active_effects(p));
   Flight<double, EffectSet<double>> flight(vehicle, p, effects, *measured.arc->inputs);
-  std::array<MotorState<double>, kMaxRotors> motors{};
   const std::vector<double>& t = measured.t;
-  for (std::size_t n = 0; n < vehicle.rotors.size(); ++n) {
-    const double y = measured_speed(measured, 0, n);
-    motors[n] = {std::isfinite(y) ? y : flight.steady_speed(n, t[0]), 0.0};
-  }
+  std::array<MotorState<double>, kMaxRotors> motors = motors_at_start(flight, t[0], vehicle.rotors.size());
+  for (std::size_t n = 0; n < vehicle.rotors.size(); ++n)
+    if (const double y = measured_speed(measured, 0, n); std::isfinite(y)) motors[n].Omega = y;
   std::vector<RotorSpeeds> out(t.size());
   for (std::size_t i = 0; i < t.size(); ++i) {
     for (std::size_t n = 0; n < vehicle.rotors.size(); ++n) out[i][n] = motors[n].Omega;

@@ -58,7 +58,7 @@ struct FlightRecord {
   StateLayout layout;
   std::array<double, kChannels> sigma{};  ///< white noise level of each channel, from differences of the data
   SlowErrors slow{};                      ///< to start from; see slow_errors()
-  double interval = 0.0;                  ///< median time between rows, s
+  double interval = 0.0;                  ///< median time between values of the densest sensor, s
   double duration = 0.0;                  ///< total of all arcs, s
   double motor_rate = 0.0;  ///< omega_m to start from, rad/s: the size that changes of rotor speed have
   double turns_apart =

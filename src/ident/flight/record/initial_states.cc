@@ -6,6 +6,7 @@
 
 #include "ident/core/parallel.h"
 #include "ident/core/statistics.h"
+#include "ident/flight/record/motor_start.h"
 
 namespace ident {
 namespace {
@@ -88,8 +89,7 @@ void simulate_motors(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
   const EffectSet<double> effects(p, active_effects(p));
   Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
   const std::size_t rotors = vehicle.rotors.size();
-  std::array<MotorState<double>, kMaxRotors> motors{};
-  for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
+  std::array<MotorState<double>, kMaxRotors> motors = motors_at_start(flight, arc.t[0], rotors);
   for (std::size_t i = 0; i < arc.rows(); ++i) {
     for (std::size_t n = 0; n < rotors; ++n) {
       const double y = arc.y[i * kChannels + kRotorChannel + n];

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "ident/flight/record/motor_start.h"
 #include "ident/model/flight.h"
 
 namespace ident {
@@ -14,8 +15,7 @@ std::vector<std::vector<double>> simulated_speeds(const FlightArc& arc, const Ve
   std::vector<std::vector<double>> out(rotors, std::vector<double>(arc.rows(), 0.0));
   const EffectSet<double> effects(p, active_effects(p));
   Flight<double, EffectSet<double>> flight(vehicle, p, effects, *arc.inputs);
-  std::array<MotorState<double>, kMaxRotors> motors{};
-  for (std::size_t n = 0; n < rotors; ++n) motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
+  std::array<MotorState<double>, kMaxRotors> motors = motors_at_start(flight, arc.t[0], rotors);
   for (std::size_t i = 0; i < arc.rows(); ++i) {
     for (std::size_t n = 0; n < rotors; ++n) out[n][i] = motors[n].Omega;
     if (i + 1 < arc.rows()) flight.advance(motors, arc.t[i], arc.t[i + 1] - arc.t[i]);

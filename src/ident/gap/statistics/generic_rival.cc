@@ -7,6 +7,7 @@
 #include "ident/core/parallel.h"
 #include "ident/core/stage_times.h"
 #include "ident/flight/conditioning/estimator_drift.h"
+#include "ident/flight/record/motor_start.h"
 #include "ident/gap/statistics/held_out_gain.h"
 
 namespace ident {
@@ -74,8 +75,7 @@ Motors commanded_motors(const FlightRecord& record, const std::vector<double>& p
   for (const FlightArc& arc : record.arcs) {
     Flight<double, EffectSet<double>> flight(*record.vehicle, p, effects, *arc.inputs);
     std::array<MotorState<double>, kMaxRotors> motors{};
-    for (std::size_t n = 0; n < record.vehicle->rotors.size() && arc.inputs->commanded(); ++n)
-      motors[n] = {flight.steady_speed(n, arc.t[0]), 0.0};
+    if (arc.inputs->commanded()) motors = motors_at_start(flight, arc.t[0], record.vehicle->rotors.size());
     out.emplace_back();
     for (std::size_t i = 0; i < arc.rows(); ++i) {
       out.back().push_back(motors);

@@ -1,6 +1,10 @@
 // A diagnosis of logs whose controller went on between the commands that were logged.
 #pragma once
 
+#include <functional>
+#include <span>
+#include <string>
+
 #include "ident/gap/verdict/verdict.h"
 #include "ident/model/vehicle.h"
 #include "ident/result/result.h"
@@ -18,7 +22,10 @@ void doubt_open_motors(Result& result, const Vehicle& stated);
 /// What it found, but of motors, and of what acts about yaw, as was stated.
 Vehicle with_stated_motors(Vehicle found, const Vehicle& stated);
 
-/// A verdict by that vehicle: causes that what was not logged passes for are not named.
-Judged with_open_commands(Judged verdict, double interval);
+/// A verdict by that vehicle: causes that what was not logged passes for are not named. `found`: the
+/// constants, with the sizes of causes; `in_words`: of the verdict that is left.
+using InWords = std::function<std::string(const Judged&)>;
+Judged with_open_commands(Judged verdict, std::span<const Parameter> found, double interval,
+                          const InWords& in_words);
 
 }  // namespace ident

@@ -15,6 +15,7 @@ namespace {
 const std::vector<std::string> kColumnKeys = {"column",  "unit", "scale", "offset", "stream", "where", "time",
                                               "late_by", "nan",  "by",    "per",    "range",  "behind"};
 const std::vector<std::string> kLateKeys = {"column", "scale"};
+const std::vector<std::string> kLowPassKeys = {"lag", "square"};
 constexpr const char* kNumber = "{n}";
 constexpr std::string_view kOutput = "{output";  // of which `{output}`, `{output-1}` are made
 
@@ -53,6 +54,12 @@ void read_conditions(const YamlValue& where, int n, MappedColumn& mapped) {
   }
 }
 
+MappedLowPass read_low_pass(const YamlValue& value) {
+  if (!value.is_map()) return {.cutoff = value.text()};
+  value.expect_map(kLowPassKeys);
+  return {.lag = value.at("lag").text(), .square = value.at("square").text()};
+}
+
 MappedColumn read_column(const YamlValue& value, int n) {
   MappedColumn mapped;
   mapped.line = value.line();
@@ -78,7 +85,7 @@ MappedColumn read_column(const YamlValue& value, int n) {
     if (value.has("stream")) mapped.stream = numbered(value.at("stream").text(), n);
     if (value.has("nan")) mapped.nan_is = value.at("nan").number();
     if (value.has("time")) mapped.time = numbered(value.at("time").text(), n);
-    if (value.has("behind")) mapped.behind = value.at("behind").text();
+    if (value.has("behind")) mapped.behind = read_low_pass(value.at("behind"));
     if (value.has("where")) read_conditions(value.at("where"), n, mapped);
     if (value.has("by")) mapped.by = value.at("by").text();
     if (value.has("per")) mapped.per = value.at("per").text();

@@ -291,6 +291,7 @@ FlightLog flight_log_of(const LogStreams& log, const Vehicle& vehicle, const std
   StreamTable streams = make_stream_table(log, vehicle, map_for_format(log.format, map));
   FlightLog flight = build(std::move(streams.table), streams.vehicle, streams.map, streams.columns);
   flight.loop = flight.has_commands() ? streams.loop : 0.0;
+  flight.each_command = flight.has_commands() && streams.each_command;
   return flight;
 }
 

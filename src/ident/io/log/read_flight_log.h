@@ -21,6 +21,13 @@ struct StreamCondition {
   bool of_output = false;  ///< `is` counts from the number of the output that drives the motor
 };
 
+/// A low-pass as a map names it: numbers, or parameters of the log.
+struct MappedLowPass {
+  std::string cutoff;  ///< Hz, of a Butterworth filter of second order
+  std::string lag;     ///< s: y + lag y' + square y'' went in
+  std::string square;  ///< s^2
+};
+
 /// Where a signal stands in a file: value = scale * number + offset, then the unit is converted. An empty
 /// column (`x: null` in the file) says that the signal is not to be read. What speaks of streams is for logs
 /// that hold some.
@@ -34,7 +41,7 @@ struct MappedColumn {
   std::string time;                    ///< field with times of this column's own, in us as the stream's clock
   std::string late_by;                 ///< field of the time by which a sample is late
   double late_by_scale = 1.0;          ///< s per unit of it
-  std::string behind;            ///< low-pass that the signal went through: parameter of its cutoff, or Hz
+  MappedLowPass behind;          ///< that the signal went through
   std::optional<double> nan_is;  ///< what a sample that is not a number stands for
   std::string by, per;           ///< parameters of the log that a number is multiplied with, divided by
   std::array<std::string, 2> range;     ///< parameters that are 0 and 1 of the signal

@@ -120,16 +120,19 @@ class Finder {
                                  known_units(signal.dimension)));
   }
 
-  /// Of the low-pass that a signal went through, Hz; 0 where there is none, or the log does not state it.
-  double cutoff_of(const MappedColumn& mapped) const {
-    if (mapped.behind.empty()) return 0.0;
-    if (const std::optional<double> stated = parse_number(mapped.behind)) return *stated;
-    const std::optional<double> cutoff = log_.parameter(mapped.behind);
-    if (!cutoff && mapped.must_be_there)
-      throw InputError(
-          map_.file, mapped.line, "behind",
-          fmt::format("'{}' is neither a number of Hz nor a parameter of the log", mapped.behind));
-    return cutoff.value_or(0.0);
+  /// The low-pass that a signal went through; without a lag where there is none, or the log does not state it.
+  LowPass filter_of(const MappedColumn& mapped) const {
+    const auto stated = [&](const std::string& text, const char* unit) {
+      if (text.empty()) return 0.0;
+      if (const std::optional<double> number = parse_number(text)) return *number;
+      const std::optional<double> of_log = log_.parameter(text);
+      if (!of_log && mapped.must_be_there)
+        throw InputError(map_.file, mapped.line, "behind",
+                         fmt::format("'{}' is neither a number of {} nor a parameter of the log", text, unit));
+      return of_log.value_or(0.0);
+    };
+    if (const double cutoff = stated(mapped.behind.cutoff, "Hz"); cutoff > 0) return butterworth(cutoff);
+    return {.lag = stated(mapped.behind.lag, "s"), .square = stated(mapped.behind.square, "s^2")};
   }
 
   /// The same conditions with numbers; NaN, which no sample is, where no output drives the motor.
@@ -189,9 +192,9 @@ class Finder {
       found.values.push_back(unit * (line.factor * value + line.offset));
     }
     if (!any_number) found.t.clear();
-    if (const double cutoff = cutoff_of(mapped); cutoff > 0 && !found.t.empty()) {
-      found.unfiltered = cutoff;
-      undo_low_pass(found.t, found.values, cutoff);
+    if (const LowPass filter = filter_of(mapped); filter.lag > 0 && !found.t.empty()) {
+      found.unfiltered = filter.lag;
+      undo_low_pass(found.t, found.values, filter);
     }
     if (back > 0)
       out_.warnings.push_back(

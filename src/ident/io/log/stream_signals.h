@@ -16,7 +16,7 @@ struct StreamSignal {
   LogGroup group = LogGroup::time;
   std::string stream, column;  ///< where they come from
   std::vector<double> t, values;
-  double unfiltered = 0.0;  ///< cutoff of a low-pass that was taken back, Hz; 0: none
+  double unfiltered = 0.0;  ///< lag of a low-pass that was taken back, s; 0: none
 };
 
 struct StreamSignals {

@@ -146,7 +146,7 @@ class Maker {
     const double step = median(std::move(steps));
     for (const std::string& rate : out_.map.controller_rate)
       if (const auto hz = parse_number(rate) ? parse_number(rate) : log_.parameter(rate); hz && *hz > 0) {
-        if (1 / step > kAsOften * *hz) out_.loop = 1 / *hz;
+        out_.loop = 1 / *hz, out_.each_command = 1 / step > kAsOften * *hz;
         return;
       }
   }
@@ -191,10 +191,10 @@ class Maker {
     std::map<double, std::string> unfiltered;
     for (const StreamSignal& signal : signals_.list)
       if (signal.unfiltered > 0) unfiltered[signal.unfiltered] += signal.name + " ";
-    for (const auto& [cutoff, names] : unfiltered)
+    for (const auto& [lag, names] : unfiltered)
       out_.table.notices.push_back(
-          fmt::format("{}: {}went through a low-pass at {:.4g} Hz on the vehicle, which was taken back",
-                      log_.file, names, cutoff));
+          fmt::format("{}: {}went through a low-pass on the vehicle, {:.3g} ms late, which was taken back",
+                      log_.file, names, 1e3 * lag));
     if (const auto commands = log_.facts.find("commands"); commands != log_.facts.end())
       out_.table.notices.push_back(log_.file + ": " + commands->second);
   }

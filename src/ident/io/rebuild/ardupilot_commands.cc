@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,7 +130,23 @@ class Rebuilder {
       const double off = disagreement_at(later);
       if (off < least) least = off, best = later;
     }
-    return least < kNone ? disagreement_at(best) : kNone;
+    if (!(least < kNone)) return kNone;
+    disagreement_at(best);
+    cut_pulses();
+    return disagreement();
+  }
+
+  // A pulse is a whole number of microseconds: cut off [AP_MotorsMulticopter::output_to_pwm], rounded in
+  // other releases. Which of them, if any, the pulses that were logged tell.
+  void cut_pulses() {
+    double least = kNone;
+    std::optional<double> best;
+    for (const std::optional<double> up : {std::optional<double>(), std::optional(0.0), std::optional(0.5)}) {
+      up_ = up;
+      const double off = mean_error();
+      if (off < least) least = off, best = up;
+    }
+    up_ = best;
   }
 
   double disagreement_at(std::ptrdiff_t later) {
@@ -185,22 +203,33 @@ class Rebuilder {
         thrust += gains_[k] * mix_(n, k) * demands_[static_cast<std::size_t>(k)]->at(demand);
       const double u = thrust > 0 ? curve_.command(thrust, lift, volts) : 0;
       if (!(u > curve_.spin_min + kClear && u < curve_.spin_max - kClear)) return {};
-      out.push_back(u);
+      out.push_back(up_ ? std::floor(u * range_ + *up_) / range_ : u);
     }
     return out;
   }
 
-  double disagreement() const {
-    std::vector<double> errors;
+  // Of the motor that is farthest off, in order of size.
+  std::vector<double> errors() const {
+    std::vector<double> all;
     for (const auto& [pulse, demand] : matched_) {
       const std::vector<double> made = made_by(demand);
       double error = made.empty() ? 1.0 : 0.0;
       for (std::size_t n = 0; n < made.size(); ++n)
         error = std::max(error, std::abs(made[n] - command(pulse, static_cast<Index>(n))));
-      errors.push_back(error);
+      all.push_back(error);
     }
-    std::ranges::sort(errors);
-    return errors[errors.size() * 19 / 20];
+    std::ranges::sort(all);
+    return all;
+  }
+
+  double disagreement() const {
+    const std::vector<double> all = errors();
+    return all[all.size() * 19 / 20];
+  }
+
+  double mean_error() const {
+    const std::vector<double> all = errors();
+    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
   }
 
   // Pulses as logged, and between two that no limit touches what the demands make.
@@ -233,6 +262,7 @@ class Rebuilder {
   MatrixXd mix_;
   ArdupilotCurve curve_{};
   double low_ = 0, range_ = 1;
+  std::optional<double> up_;  ///< us that are added to a pulse before it is cut to whole ones
   std::vector<const StreamField*> pulses_, demands_;
   std::vector<Matched> matched_;
   VectorXd gains_;
