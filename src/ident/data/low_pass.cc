@@ -14,8 +14,7 @@ LowPass butterworth(double cutoff) {
 }
 
 LowPass in_a_row(const LowPass& first, const LowPass& second) {
-  return {.lag = first.lag + second.lag,
-          .square = first.square + second.square + first.lag * second.lag};
+  return {.lag = first.lag + second.lag, .square = first.square + second.square + first.lag * second.lag};
 }
 
 }  // namespace ident

@@ -111,7 +111,8 @@ std::optional<std::vector<FlightLog>> without_undriven(const Vehicle& vehicle,
 
 namespace {
 
-Result refined_of_driven(const Vehicle& vehicle, std::span<const FlightLog> logs, const RefineOptions& options) {
+Result refined_of_driven(const Vehicle& vehicle, std::span<const FlightLog> logs,
+                         const RefineOptions& options) {
   const auto driven = without_undriven(vehicle, logs);
   if (!driven) return refine_as_logged(vehicle, logs, options);
   // Nothing is estimated of motors along measured motion.

@@ -36,11 +36,11 @@
 #include "ident/gap/statistics/residual_wrench.h"
 #include "ident/gap/verdict/input_smoothing.h"
 #include "ident/gap/verdict/open_commands.h"
-#include "ident/gap/verdict/verdict_sentence.h"
 #include "ident/gap/verdict/out_of_balance.h"
 #include "ident/gap/verdict/seldom_input.h"
 #include "ident/gap/verdict/unnamed_values.h"
 #include "ident/gap/verdict/verdict.h"
+#include "ident/gap/verdict/verdict_sentence.h"
 #include "ident/gap/views/gap_sections.h"
 #include "ident/gap/views/gap_where.h"
 #include "ident/gap/views/search_details.h"
@@ -188,8 +188,9 @@ Looked diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
   out.trained = search.best.theta->p(seen.held_out.found);
   const GapClosed& gap = seen.held_out.judged;
   state_constants(result, search, vehicle, p, hover);
-  const Seen rests_on{
-      search, gap, seen.shares, seen.rival, seen.lines, seen.jumps, seen.unsteady, result.parameters};
+  if (commands == Commands::open) doubt_open_motors(result.parameters);
+  const Seen rests_on{search,     gap,        seen.shares,   seen.rival,
+                      seen.lines, seen.jumps, seen.unsteady, result.parameters};
   Judged verdict = judge(rests_on);
   if (commands == Commands::open)
     verdict = with_open_commands(std::move(verdict), result.parameters, input_interval(record, logs),
@@ -210,7 +211,11 @@ Looked diagnosed(const Vehicle& vehicle, std::span<const FlightLog> logs, const 
     verdict = with_jitter(std::move(verdict));
   }
   if (hidden) verdict = with_seldom_commands(std::move(verdict), *hidden);
-  if (doubtful && commands == Commands::held)
+  // Where commands come as often as rates, only what no cause explains speaks against them.
+  const bool by_commands = wrong.empty() && !hover && !hidden &&
+                           std::ranges::any_of(logs, commands_are_rarer_than_rates) &&
+                           may_be_commands(verdict.effects, result.parameters);
+  if ((doubtful || by_commands) && commands == Commands::held)
     out.commands = commands_held(record, logs, *search.best.theta, search.best.fit);
   if (!wrong.empty()) verdict = {.status = "unknown", .sentence = wrong};
   warn_of_battery(result, verdict, vehicle, logs);

@@ -95,6 +95,7 @@ std::unique_ptr<Side> diagnosed(const FlightRecord& record, FitTo what, const Ve
   if (!stands(found.best)) return {};
   side->parameters = flight_parameters(*found.best.theta, found.best.fit, "gap");
   if (told) std::erase_if(side->parameters, [&](const Parameter& one) { return is_told(*told, one.name); });
+  if (open) doubt_open_motors(side->parameters);
   side->shares = window_shares(side->model, side->search);
   side->gap = closed_of(side->shares);
   // Air is no discrepancy; windows are shorter than its gusts.
@@ -192,14 +193,16 @@ std::optional<WindowDiagnosis> diagnose_windows(const Vehicle& stated, std::span
   const Vehicle begin = open ? with_open_motors(stated, *open) : stated;
   const Vehicle vehicle = found_before ? with_found(begin, *found_before) : begin;
   const std::vector<double> start = found_before ? with_found(entry.p, *found_before) : entry.p;
-  const std::unique_ptr<Side> forces = diagnosed(record, FitTo::forces, vehicle, start, options, nullptr, open);
+  const std::unique_ptr<Side> forces =
+      diagnosed(record, FitTo::forces, vehicle, start, options, nullptr, open);
   Vehicle known = vehicle;
   std::vector<double> p = start;
   if (forces) {
     const FittedModel& best = forces->search.result.best;
     known = held_at(adopted_vehicle(vehicle, best), *forces), p = best.theta->p(best.fit.u);
   }
-  const std::unique_ptr<Side> moments = diagnosed(record, FitTo::moments, known, p, options, forces.get(), open);
+  const std::unique_ptr<Side> moments =
+      diagnosed(record, FitTo::moments, known, p, options, forces.get(), open);
   if (!forces && !moments) return {};
   WindowDiagnosis out;
   Result& result = out.result;

@@ -13,7 +13,8 @@ void widen_doubted(std::vector<Parameter>& parameters) {
     const double moved = std::abs(p.value - *p.prior_value);
     if (!(moved > p.std)) continue;
     p.std = moved;
-    p.ci95 = {std::min(p.ci95[0], p.value - kNormal95 * moved), std::max(p.ci95[1], p.value + kNormal95 * moved)};
+    p.ci95 = {std::min(p.ci95[0], p.value - kNormal95 * moved),
+              std::max(p.ci95[1], p.value + kNormal95 * moved)};
   }
 }
 

@@ -44,7 +44,8 @@ TEST(DerivedSettings, FollowTheVersion) {
       "H gyro_lowpass2_hz:300\n");
   EXPECT_NEAR(*v42.parameter("ident_acc_lag"), std::numbers::sqrt2 / (kTurn * 10), 1e-12);
   // Of the dynamic one the middle of its range.
-  EXPECT_NEAR(*v42.parameter("ident_gyro_lag"), 1 / (kTurn * 420) + std::numbers::sqrt2 / (kTurn * 300), 1e-12);
+  EXPECT_NEAR(*v42.parameter("ident_gyro_lag"), 1 / (kTurn * 420) + std::numbers::sqrt2 / (kTurn * 300),
+              1e-12);
   const LogStreams off = with("H Firmware revision:Betaflight 4.5.1 (abc) X\nH acc_lpf_hz:0\n");
   EXPECT_FALSE(off.parameter("ident_acc_lag").has_value());
   EXPECT_FALSE(off.parameter("ident_gyro_lag").has_value());

@@ -23,11 +23,11 @@ constexpr double kRough = 0.42;         ///< of what commands change in the long
 
 double interval_of(const FlightRecord& record, const FlightLog& log) {
   const double interval = new_samples(log.t, record.signals.commands ? log.delta : log.Omega).apart;
-  return interval > 0 ? interval : 0.0;  // NaN too
+  return interval > 0 ? interval : record.interval;  // NaN too
 }
 
 bool is_seldom_and_rough(const FlightRecord& record, const FlightLog& log, double interval) {
-  return std::max(record.interval, interval_of(record, log)) > interval && roughness(log) > kRough;
+  return interval_of(record, log) > interval && roughness(log) > kRough;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ bool commands_are_rarer_than_rates(const FlightLog& log) {
 }
 
 double input_interval(const FlightRecord& record, std::span<const FlightLog> logs) {
-  double longest = record.interval;
+  double longest = 0;
   for (const FlightLog& log : logs) longest = std::max(longest, interval_of(record, log));
   return longest;
 }
@@ -67,7 +67,7 @@ std::optional<Warning> seldom_input(const FlightRecord& record, std::span<const 
 std::optional<double> hides_motion(const FlightRecord& record, std::span<const FlightLog> logs) {
   if (!record.signals.commands) return {};
   for (const FlightLog& log : logs)
-    if (is_seldom_and_rough(record, log, kSeldom)) return std::max(record.interval, interval_of(record, log));
+    if (is_seldom_and_rough(record, log, kSeldom)) return interval_of(record, log);
   return {};
 }
 

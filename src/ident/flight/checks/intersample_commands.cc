@@ -144,16 +144,17 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
   if (inertia)  // and kQ, of which yaw tells the ratio to Jzz
     doubt_all(result, {"Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz", "kQ"}, kWhy);
   if (result.has_warning("command_offset")) doubt_all(result, {"km", "Omega_0", "kT", "kQ"}, kWhy);
-  result.warn("commands_between_rows",
-              fmt::format("{}. Motor constants{} are not identifiable. Log each command that is sent.",
-                          held.skipped ? "As the log states, its controller goes on between the commands that "
-                                         "were logged"
-                          : held.refuted()
-                              ? "The flight contradicts commands that hold from row to row: the controller "
-                                "goes on in between, or the times of the rows are not those of the commands"
-                              : "Commands were logged at a lower rate than the body rates, and the flight "
-                                "does not show that they held in between",
-                          inertia ? ", moments of inertia and kQ" : ""));
+  result.warn(
+      "commands_between_rows",
+      fmt::format("{}. Motor constants{} are not identifiable. Log each command that is sent.",
+                  held.skipped ? "As the log states, its controller goes on between the commands that "
+                                 "were logged"
+                  : held.refuted()
+                      ? "The flight contradicts commands that hold from row to row: the controller "
+                        "goes on in between, or the times of the rows are not those of the commands"
+                      : "Commands were logged at a lower rate than the body rates, and the flight "
+                        "does not show that they held in between",
+                  inertia ? ", moments of inertia and kQ" : ""));
 }
 
 }  // namespace ident

@@ -27,7 +27,8 @@ struct HeldCommands {
 
 /// Whether logs state that commands were skipped, and half the time between those that are there matters to
 /// the motors with constants `p`.
-bool skip_what_matters(const FlightRecord& record, std::span<const FlightLog> logs, std::span<const double> p);
+bool skip_what_matters(const FlightRecord& record, std::span<const FlightLog> logs,
+                       std::span<const double> p);
 
 /// The same at a fit, its noise taken for known; expects nothing where commands hardly change from one to the
 /// next, nothing is to be told from it, or logs have each command of a controller as they say. Takes two fits

@@ -42,7 +42,8 @@ std::vector<std::size_t> rows_looked_at(const std::vector<double>& t) {
   std::vector<std::size_t> rows{0};
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double next = t[rows.back()] + kRow;
-    const bool nearer_follows = i + 1 < t.size() && std::abs(t[i + 1] - next) <= std::abs(t[i] - next) + kAlike;
+    const bool nearer_follows =
+        i + 1 < t.size() && std::abs(t[i + 1] - next) <= std::abs(t[i] - next) + kAlike;
     if (t[i] >= next - kRow / 2 && !nearer_follows) rows.push_back(i);
   }
   return rows;

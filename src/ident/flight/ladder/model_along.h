@@ -12,8 +12,9 @@ namespace ident {
 /// The rotors along an arc, from the commands or measured.
 struct MotorsAlong {
   using Motors = std::array<MotorState<double>, kMaxRotors>;
-  std::vector<Motors> at;       ///< [row looked at]
-  std::vector<Motors> between;  ///< [row looked at] up to the next: speeds of the mean thrust, mean derivatives
+  std::vector<Motors> at;  ///< [row looked at]
+  std::vector<Motors>
+      between;  ///< [row looked at] up to the next: speeds of the mean thrust, mean derivatives
 };
 
 /// Along one arc; attitude, rates, velocity and position are those measured.

@@ -3,8 +3,8 @@
 
 namespace ident {
 
-std::array<MotorState<double>, kMaxRotors> motors_at_start(Flight<double, EffectSet<double>>& flight, double t,
-                                                           std::size_t rotors) {
+std::array<MotorState<double>, kMaxRotors> motors_at_start(Flight<double, EffectSet<double>>& flight,
+                                                           double t, std::size_t rotors) {
   constexpr double kBefore = 0.3, kStep = 0.005;  // s: ten lags of usual motors
   const int steps = static_cast<int>(kBefore / kStep + 0.5);
   std::array<MotorState<double>, kMaxRotors> motors{};

@@ -67,14 +67,20 @@ Vehicle with_open_motors(const Vehicle& vehicle, double interval) {
   return open;
 }
 
+void doubt_open_motors(std::vector<Parameter>& parameters) {
+  for (Parameter& p : parameters)
+    if (is_bent(p.name))
+      p.doubt("left open for what the controller does between the commands that were logged");
+}
+
 void doubt_open_motors(Result& result, const Vehicle& stated) {
+  doubt_open_motors(result.parameters);
   for (Parameter& p : result.parameters) {
     if (!is_bent(p.name)) continue;
     p.prior_value.reset(), p.prior_std.reset(), p.pull.reset();
     if (const auto known = stated.parameters.find(p.name);
         known != stated.parameters.end() && known->second.std)
       p.prior_value = known->second.value, p.prior_std = known->second.std;
-    p.doubt("left open for what the controller does between the commands that were logged");
   }
 }
 
@@ -86,6 +92,11 @@ Vehicle with_stated_motors(Vehicle found, const Vehicle& stated) {
   return found;
 }
 
+bool may_be_commands(const std::vector<std::string>& causes, std::span<const Parameter> found) {
+  return std::ranges::any_of(causes,
+                             [&](const std::string& cause) { return passes_for_commands(cause, found); });
+}
+
 Judged with_open_commands(Judged verdict, std::span<const Parameter> found, double interval,
                           const InWords& in_words) {
   std::vector<std::string> passed;
@@ -94,12 +105,13 @@ Judged with_open_commands(Judged verdict, std::span<const Parameter> found, doub
   if (!passed.empty()) {
     verdict = unnamed(std::move(verdict), passed);
     verdict.sentence = fmt::format(
-        "{} What the controller does between the commands that were logged, {:.3g} a second, passes for {}: "
+        "{} What the controller does between the commands that were logged, {:.4g} a second, passes for {}: "
         "that is not named. Log each command that is sent.",
         in_words(verdict), 1 / interval, fmt::join(passed, " with "));
   } else if (verdict.status == "unknown") {
     verdict.sentence += fmt::format(
-        " It may be what the controller does between the commands that were logged, {:.3g} a second. Log each "
+        " It may be what the controller does between the commands that were logged, {:.4g} a second. Log "
+        "each "
         "command that is sent.",
         1 / interval);
   } else {

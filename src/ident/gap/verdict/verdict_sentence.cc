@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
+#include <utility>
 
 #include "ident/core/format_number.h"
 #include "ident/core/word_list.h"
@@ -15,6 +17,8 @@
 
 namespace ident {
 namespace {
+
+constexpr double kPlainGap = 2.0;  // times the noise, of the model as stated
 
 std::string percent(const Share& share) {
   const auto in_100 = [](double x) { return std::round(100 * x) + 0.0; };  // no -0
@@ -49,8 +53,37 @@ std::string missed(const GapClosed& gap) {
                      format_number(ratio, 2));
 }
 
+// " (Jxx +12 %, km -5 %)": the constants that the flight moves farthest from what was stated, beyond their
+// deviations.
+std::string moved(const std::vector<Parameter>& fitted) {
+  constexpr double kLeast = 0.02, kTold = 2.0;  // of the value; standard deviations
+  constexpr std::size_t kMost = 3;
+  std::vector<std::pair<double, std::string>> all;
+  for (const Parameter& p : fitted) {
+    if (!(p.identifiable || p.joint) || !p.prior_value || !(*p.prior_value != 0)) continue;
+    const double change = p.value / *p.prior_value - 1;
+    if (std::abs(change) > kLeast && std::abs(p.value - *p.prior_value) > kTold * p.std)
+      all.emplace_back(change, p.name);
+  }
+  std::ranges::sort(all, std::greater{}, [](const auto& one) { return std::abs(one.first); });
+  if (all.size() > kMost) all.resize(kMost);
+  std::vector<std::string> out;
+  for (const auto& [change, name] : all) out.push_back(fmt::format("{} {:+.0f} %", name, 100 * change));
+  return out.empty() ? "" : fmt::format(" ({})", fmt::join(out, ", "));
+}
+
+// What constants close of the gap, where that is most of it; else nothing.
+std::string by_constants(const Seen& seen) {
+  const double closed = closed_by_constants(seen.shares, seen.gap);
+  if (!(closed > kMostly)) return {};
+  return fmt::format("Constants, refitted within what is known of them{}, close {:.0f} % of the gap. ",
+                     moved(seen.fitted), std::floor(100 * closed));
+}
+
 std::string unknown(const Judged& verdict, const Seen& seen) {
-  std::string out = "Something acts on this vehicle of which no cause of the catalogue is certain.";
+  std::string out = by_constants(seen);
+  out += out.empty() ? "Something acts on this vehicle of which no cause of the catalogue is certain."
+                     : "Of what is left no cause of the catalogue is certain.";
   if (!verdict.causes.empty()) {
     std::vector<std::string> nearest;
     for (const JudgedCause& cause : verdict.causes)
@@ -71,9 +104,12 @@ std::string unknown(const Judged& verdict, const Seen& seen) {
 
 std::string none(const Seen& seen) {
   const double ratio = seen.gap.after / seen.gap.floor;
-  std::string out =
-      "The model explains these logs down to the noise of the sensors and the air; no cause "
-      "stands out.";
+  const double as_stated = seen.gap.before / seen.gap.floor;
+  std::string out = as_stated > kPlainGap
+                        ? fmt::format("With constants refitted within what is known of them{}, the model",
+                                      moved(seen.fitted))
+                        : "The model";
+  out += " explains these logs down to the noise of the sensors and the air; no cause stands out.";
   if (std::isfinite(ratio) && ratio > 1 + kFloorKnown)
     out += fmt::format(" Held-out flight is missed by {} times that noise, as chance may have it.",
                        format_number(ratio, 2));
@@ -93,12 +129,8 @@ std::string sentence_of(const Judged& verdict, const Seen& seen) {
   } else if (verdict.status == "unknown") {
     out = unknown(verdict, seen);
   } else {
-    const double by_constants = closed_by_constants(seen.shares, seen.gap);
-    const bool mostly = by_constants > kMostly;
-    if (mostly)
-      out = fmt::format("Constants, refitted within what is known of them, close {:.0f} % of the gap. ",
-                        std::floor(100 * by_constants));
-    const std::string_view of = mostly ? "rest" : "gap";
+    out = by_constants(seen);
+    const std::string_view of = out.empty() ? "gap" : "rest";
     const std::string causes = named(verdict.effects, verdict, of);
     if (verdict.status == "partly")
       out += fmt::format("There is {}, and something else is left.", causes);

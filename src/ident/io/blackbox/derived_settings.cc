@@ -35,7 +35,8 @@ LowPass gyro_low_pass(const LogStreams& streams) {
   };
   const double low = setting("gyro_lowpass_dyn_hz[0]", "gyro_lpf1_dyn_hz[0]"),
                high = setting("gyro_lowpass_dyn_hz[1]", "gyro_lpf1_dyn_hz[1]"),
-               first = low > 0 ? (low + std::max(low, high)) / 2 : setting("gyro_lowpass_hz", "gyro_lpf1_static_hz");
+               first = low > 0 ? (low + std::max(low, high)) / 2
+                               : setting("gyro_lowpass_hz", "gyro_lpf1_static_hz");
   return in_a_row(low_pass(setting("gyro_lowpass_type", "gyro_lpf1_type"), first),
                   low_pass(setting("gyro_lowpass2_type", "gyro_lpf2_type"),
                            setting("gyro_lowpass2_hz", "gyro_lpf2_static_hz")));
@@ -65,7 +66,8 @@ void add_derived_settings(const Header& header, LogStreams& streams) {
     streams.parameters["ident_vbat_scale"] =
         firmware.version >= 40000 && firmware.version < 40300 ? 0.1 : 1.0;
   if (const auto loop = streams.parameter("looptime"); loop && *loop > 0)
-    streams.parameters["ident_loop_hz"] = 1e6 / *loop / std::max(1.0, streams.parameter("pid_process_denom").value_or(1));
+    streams.parameters["ident_loop_hz"] =
+        1e6 / *loop / std::max(1.0, streams.parameter("pid_process_denom").value_or(1));
   if (!betaflight || firmware.version < 40000) return;
   add("ident_gyro", gyro_low_pass(streams), streams);
   // In 0.01 Hz [blackbox.c]; a biquad up to 4.4, then PT2 [accelerometer_init.c].

@@ -41,12 +41,12 @@ struct MappedColumn {
   std::string time;                    ///< field with times of this column's own, in us as the stream's clock
   std::string late_by;                 ///< field of the time by which a sample is late
   double late_by_scale = 1.0;          ///< s per unit of it
-  MappedLowPass behind;          ///< that the signal went through
-  std::optional<double> nan_is;  ///< what a sample that is not a number stands for
-  std::string by, per;           ///< parameters of the log that a number is multiplied with, divided by
-  std::array<std::string, 2> range;     ///< parameters that are 0 and 1 of the signal
-  bool must_be_there = false;           ///< a user named it: an error where it is not
-  int number = 0;                       ///< n, of a line that speaks of rotors as `delta{n}`
+  MappedLowPass behind;                ///< that the signal went through
+  std::optional<double> nan_is;        ///< what a sample that is not a number stands for
+  std::string by, per;                 ///< parameters of the log that a number is multiplied with, divided by
+  std::array<std::string, 2> range;    ///< parameters that are 0 and 1 of the signal
+  bool must_be_there = false;          ///< a user named it: an error where it is not
+  int number = 0;                      ///< n, of a line that speaks of rotors as `delta{n}`
   std::vector<MappedColumn> otherwise;  ///< in order of preference, where stream or column are not there
 };
 

@@ -120,15 +120,17 @@ class Finder {
                                  known_units(signal.dimension)));
   }
 
-  /// The low-pass that a signal went through; without a lag where there is none, or the log does not state it.
+  /// The low-pass that a signal went through; without a lag where there is none, or the log does not state
+  /// it.
   LowPass filter_of(const MappedColumn& mapped) const {
     const auto stated = [&](const std::string& text, const char* unit) {
       if (text.empty()) return 0.0;
       if (const std::optional<double> number = parse_number(text)) return *number;
       const std::optional<double> of_log = log_.parameter(text);
       if (!of_log && mapped.must_be_there)
-        throw InputError(map_.file, mapped.line, "behind",
-                         fmt::format("'{}' is neither a number of {} nor a parameter of the log", text, unit));
+        throw InputError(
+            map_.file, mapped.line, "behind",
+            fmt::format("'{}' is neither a number of {} nor a parameter of the log", text, unit));
       return of_log.value_or(0.0);
     };
     if (const double cutoff = stated(mapped.behind.cutoff, "Hz"); cutoff > 0) return butterworth(cutoff);

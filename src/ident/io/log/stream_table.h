@@ -12,10 +12,10 @@ namespace ident {
 struct StreamTable {
   NumberTable table;  ///< a row for each instant at which anything was sampled
   LogColumns columns;
-  LogMap map;         ///< with the windows in which the vehicle flies, where the map states none
+  LogMap map;                 ///< with the windows in which the vehicle flies, where the map states none
   double loop = 0.0;          ///< s, of the controller; 0: not stated
   bool each_command = false;  ///< the log has each of its commands
-  Vehicle vehicle;    ///< with the range of commands that the log states, where it has none of its own
+  Vehicle vehicle;  ///< with the range of commands that the log states, where it has none of its own
 };
 
 /// Throws InputError where the log lacks what a flight log needs or drives more motors than the vehicle has,
