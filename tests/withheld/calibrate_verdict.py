@@ -3,7 +3,7 @@
 
     calibrate_verdict.py CAMPAIGN[:ANSWERS] ...
 
-Reads truth and answers of withheld campaigns (README.md), takes every cause that a diagnosis found with the
+Reads truth and answers of withheld and field campaigns (README.md of either), takes every cause that a diagnosis found with the
 quantities that it rests on (`candidates[].why`), and fits a logistic model by maximum a posteriori. With several
 campaigns each is predicted by the fit to the others as well. The answers with the true effect taken out count too:
 there whatever was found stands in for it.
@@ -13,16 +13,14 @@ import math
 import pathlib
 import sys
 
-# Quantity, its transformation, and the mean of its coefficient's prior: as in probability_right().
+# Quantity, its transformation, mean and deviation of its coefficient's prior: as in probability_right().
 TERMS = [
-    ("base", lambda x: 1.0, 2.0),
-    ("left", lambda x: max(x["left"], 0.0), -1.0),
-    ("varies", lambda x: max(x["varies"], -1.0), -1.0),
-    ("closes", lambda x: x["closes"] - 0.5, 1.0),
-    ("minor", lambda x: max(x["minor"], -3.0), 0.0),
-    ("beside", lambda x: max(x["beside"] - 1, 0.0), -0.5),
+    ("base", lambda x: 1.0, 3.0, 1.0),
+    ("left", lambda x: max(x["left"], 0.0), -1.9, 0.2),  # of 50 flights with and without their true causes
+    ("varies", lambda x: max(x["varies"], -1.0), -1.0, 0.3),
+    ("closes", lambda x: x["closes"] - 0.5, 1.0, 0.5),
+    ("weak", lambda x: min(x["told"] - 2.5, 0.0), 0.0, 1.5),
 ]
-PRIOR_STD = 1.0  # of each coefficient
 
 
 def rows_of(campaign):
@@ -30,6 +28,9 @@ def rows_of(campaign):
     folder = pathlib.Path(folder)
     for truth_file in sorted((folder / "truth").glob("*.json")):
         truth = json.loads(truth_file.read_text())
+        if "present" in truth:
+            yield from rows_of_field(folder / (answers or "answers") / (truth_file.stem + ".gap.json"), truth)
+            continue
         names = {e["name"] for e in truth["effects"]}
         also = set(flat(truth["accompanying"]))
         taken_out = set()
@@ -43,11 +44,24 @@ def rows_of(campaign):
             answer = json.loads(answer_file.read_text())
             for c in answer.get("candidates", []):
                 why = c.get("why")
-                if not why or why["seen"] or why["beside_left_out"] < 0.9 or why["in_sets"] < 0.05:
+                if not is_found(why):
                     continue
                 right = c["effect"] in (names | also) - gone
                 limit = min((e["size_over_limit"] for e in truth["effects"]), default=0)
                 yield why, right, truth["kind"] + suffix, c["effect"], truth_file.stem, limit
+
+
+def is_found(why):
+    return why and not why["seen"] and why["beside_left_out"] >= 0.9 and why["in_sets"] >= 0.3
+
+
+def rows_of_field(answer_file, truth):
+    if not answer_file.exists() or answer_file.stat().st_size == 0:
+        return
+    there = set(truth["present"]) | set(truth["implied"])
+    for c in json.loads(answer_file.read_text()).get("candidates", []):
+        if is_found(c.get("why")):
+            yield c["why"], c["effect"] in there, "plain" if truth["plain"] else "full", c["effect"], answer_file.stem, 0
 
 
 def flat(x):
@@ -72,11 +86,11 @@ def stated(x, b):
 
 
 def fit(X, y):
-    n, prior = len(TERMS), [t[2] for t in TERMS]
+    n, prior, std = len(TERMS), [t[2] for t in TERMS], [t[3] for t in TERMS]
     b = prior[:]
     for _ in range(50):
-        H = [[(i == k) / PRIOR_STD**2 for k in range(n)] for i in range(n)]
-        g = [-(b[i] - prior[i]) / PRIOR_STD**2 for i in range(n)]
+        H = [[(i == k) / std[i] ** 2 for k in range(n)] for i in range(n)]
+        g = [-(b[i] - prior[i]) / std[i] ** 2 for i in range(n)]
         for x, label in zip(X, y):
             p = stated(x, b)
             for i in range(n):
@@ -89,13 +103,13 @@ def fit(X, y):
 
 def main():
     data = {c: list(rows_of(c)) for c in sys.argv[1:]}
-    design = {c: [[f(r[0]) for _, f, _ in TERMS] for r in rows] for c, rows in data.items()}
+    design = {c: [[f(r[0]) for _, f, *_ in TERMS] for r in rows] for c, rows in data.items()}
     label = {c: [float(r[1]) for r in rows] for c, rows in data.items()}
     X = [x for rows in design.values() for x in rows]
     y = [v for rows in label.values() for v in rows]
     b = fit(X, y)
     print(f"{len(y)} causes found, {int(sum(y))} right")
-    for (name, _, _), value in zip(TERMS, b):
+    for (name, *_), value in zip(TERMS, b):
         print(f"{name:8s} {value:+.2f}")
     p = [stated(x, b) for x in X]
     for low in (0.0, 0.2, 0.4, 0.6, 0.8):
@@ -106,14 +120,14 @@ def main():
         others = [k for k in data if k != c]
         other = fit([x for k in others for x in design[k]], [v for k in others for v in label[k]])
         q = [stated(x, other) for x in design[c]]
-        named = [v for v, w in zip(label[c], q) if w > 0.8]
-        missed = [v for v, w in zip(label[c], q) if w <= 0.8]
+        named = [v for v, w in zip(label[c], q) if w > 0.7]
+        missed = [v for v, w in zip(label[c], q) if w <= 0.7]
         print(f"{c}, by the others: named {len(named)}, of these right {int(sum(named))}; "
               f"right and not named {int(sum(missed))}")
     rows = [r for rows in data.values() for r in rows]
     for r, q in sorted(zip(rows, p), key=lambda t: -abs(t[1] - t[0][1]))[:15]:
         print(f"  {r[4]} {r[2]:16s} {r[3]:22s} right {int(r[1])} stated {q:.2f} size {r[5]:.1f} "
-              + " ".join(f"{k}={r[0][k]:.2f}" for k in ("left", "varies", "closes", "told", "minor", "beside")))
+              + " ".join(f"{k}={r[0][k]:.2f}" for k in ("left", "varies", "closes", "told")))
 
 
 if __name__ == "__main__":

@@ -20,7 +20,6 @@ struct NameEvidence {
   double told = 0;    ///< log10 of its fall of the cost
   double minor = 0;   ///< log10 of that over the fall by the strongest cause found; 0 or less
   double share = 0;   ///< upper end of its own share of the gap, 0 to 1; 1 where there is none
-  double beside = 0;  ///< causes of the vehicle found beside it
   double beyond = 0;  ///< logarithm of its size over the limit of physics, 0 within
   bool told_from_none = true;
   double beside_left_out = 1;  ///< probability that it is there beside causes that were left out as asked

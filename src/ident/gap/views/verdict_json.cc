@@ -50,7 +50,6 @@ Json why(const JudgedCause& cause) {
           {"told", x.told},
           {"minor", x.minor},
           {"share", x.share},
-          {"beside", x.beside},
           {"beyond", x.beyond},
           {"told_from_none", x.told_from_none},
           {"beside_left_out", x.beside_left_out},
