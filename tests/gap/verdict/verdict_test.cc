@@ -193,5 +193,40 @@ TEST(Verdict, WhatRefittedConstantsCloseIsToldBeforeTheCausesShareTheRest) {
   EXPECT_NE(seen.sentence.find("of the rest)"), std::string::npos) << seen.sentence;
 }
 
+// Thrust at a command is told where kT and km are not told apart; what hardly moved is left out.
+TEST(Verdict, WhatIsKnownIsSaidWhereNoCauseIsCertain) {
+  Case c({"rotor_drag"}, {});
+  c.weighs({}, 1.0);
+  c.search.ran_away = {"rotor_drag"};
+  c.shares.without_causes = 2.0;
+  const auto constant = [](const char* name, double change, bool identifiable) {
+    return Parameter{.name = name,
+                     .value = 1 + change,
+                     .std = 0.005,
+                     .identifiable = identifiable,
+                     .prior_value = 1.0,
+                     .prior_std = 0.1};
+  };
+  c.fitted = {constant("kT", 0.1, false), constant("km", -0.01, true), constant("Jxx", -0.2, true),
+              constant("Jyy", 0.01, true), constant("Jzz", 0.3, false)};
+  const Judged seen = c.judged();
+  EXPECT_EQ(seen.status, "unknown");
+  EXPECT_NE(seen.sentence.find("(Jxx -20 %, kT km^2 +8 %), close 96 % of the gap"), std::string::npos)
+      << seen.sentence;
+  c.fitted[0].identifiable = true;
+  EXPECT_NE(c.judged().sentence.find("(Jxx -20 %, kT +10 %)"), std::string::npos) << c.judged().sentence;
+}
+
+TEST(Verdict, ANameIsLessProbableTheLessSpeaksForIt) {
+  NameEvidence x{.name = "rotor_drag", .closes = 0.9, .share = 1};
+  x.told = 4;
+  const double plain = probability_right(x);
+  x.told = 2.5;
+  EXPECT_DOUBLE_EQ(probability_right(x), plain);
+  x.told = 1.0;
+  EXPECT_LT(probability_right(x), 0.7);
+  EXPECT_GT(plain, 0.9);
+}
+
 }  // namespace
 }  // namespace ident

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -53,17 +54,30 @@ std::string missed(const GapClosed& gap) {
                      format_number(ratio, 2));
 }
 
-// " (Jxx +12 %, km -5 %)": the constants that the flight moves farthest from what was stated, beyond their
-// deviations.
+double change_of(const Parameter& p) { return p.value / *p.prior_value - 1; }
+
+// kT km^2, the thrust at a command, where flight tells that and not the two apart.
+std::optional<double> change_of_thrust(const std::vector<Parameter>& fitted) {
+  const auto kT = std::ranges::find(fitted, "kT", &Parameter::name),
+             km = std::ranges::find(fitted, "km", &Parameter::name);
+  if (kT == fitted.end() || km == fitted.end() || !kT->prior_value || !km->prior_value) return {};
+  if (kT->identifiable && km->identifiable) return {};
+  return (1 + change_of(*kT)) * std::pow(1 + change_of(*km), 2) - 1;
+}
+
+// " (Jxx +12 %, kT km^2 -5 %)": the constants that the flight moves farthest from what was stated, beyond
+// their deviations.
 std::string moved(const std::vector<Parameter>& fitted) {
   constexpr double kLeast = 0.02, kTold = 2.0;  // of the value; standard deviations
   constexpr std::size_t kMost = 3;
   std::vector<std::pair<double, std::string>> all;
+  const std::optional<double> thrust = change_of_thrust(fitted);
+  if (thrust && std::abs(*thrust) > kLeast) all.emplace_back(*thrust, "kT km^2");
   for (const Parameter& p : fitted) {
     if (!(p.identifiable || p.joint) || !p.prior_value || !(*p.prior_value != 0)) continue;
-    const double change = p.value / *p.prior_value - 1;
-    if (std::abs(change) > kLeast && std::abs(p.value - *p.prior_value) > kTold * p.std)
-      all.emplace_back(change, p.name);
+    if (thrust && (p.name == "kT" || p.name == "km")) continue;
+    if (std::abs(change_of(p)) > kLeast && std::abs(p.value - *p.prior_value) > kTold * p.std)
+      all.emplace_back(change_of(p), p.name);
   }
   std::ranges::sort(all, std::greater{}, [](const auto& one) { return std::abs(one.first); });
   if (all.size() > kMost) all.resize(kMost);
