@@ -38,7 +38,8 @@ HeldCommands commands_held(const FlightRecord& record, std::span<const FlightLog
 
 /// Where commands are doubtful, what follows them does not count as known, and a warning
 /// `commands_between_rows` says so; where they come at less than 110 Hz, neither do moments of inertia, nor
-/// does an offset of the command that such logs ask for, with what goes with it.
+/// does an offset of the command that such logs ask for, with what goes with it. Neither is such an offset
+/// known where logs state that they skip commands.
 void doubt_commands_between_rows(Result& result, const FlightRecord& record, std::span<const FlightLog> logs,
                                  const HeldCommands& held);
 
