@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kBelieved = 0.5;  // share of the difference to a measured speed that a motor takes over
 
-constexpr double kStep = 0.0025;  // s: no controller's command is logged much more often
+constexpr double kStep = 0.004;  // s: short against the lag of any motor
 
 using Model = Flight<double, EffectSet<double>>;
 using Motors = MotorsAlong::Motors;
