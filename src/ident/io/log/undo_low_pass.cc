@@ -19,7 +19,7 @@ using Powers = Eigen::Matrix<double, kOrder + 1, 1>;
 constexpr double kBand = 3.0;      // times the corner up to which the filter is undone
 constexpr double kOften = 4.0;     // samples in a period of the corner, at least, for derivatives
 constexpr double kHole = 1.5;      // times its usual length, of a window with a hole
-constexpr double kMost = 1e6;      // samples on either side; of no log
+constexpr double kMost = 500.0;    // samples on either side: 0.5 Hz at 1 kHz, and time grows with the log
 constexpr std::size_t kLeast = 3;  // samples on either side
 
 // Half the width of a moving polynomial that passes frequencies up to `band`, in samples [Schafer, What is a
