@@ -24,7 +24,7 @@ LogStreams with(const std::string& lines) {
   return BlackboxFormat::read(text + std::string("I\0\144\0E\377End of log\0", 17), "log");
 }
 
-// Attenuation at the cutoff of a filter that is cut off after second order is not 3 dB; its lag is exact.
+// A filter counts to second order: its lag is exact.
 TEST(DerivedSettings, LowPassesAreThoseOfTheFirmware) {
   const LogStreams v45 = with(
       "H Firmware revision:Betaflight 4.5.1 (abc) X\nH acc_lpf_hz:2500\nH gyro_lpf1_type:0\n"

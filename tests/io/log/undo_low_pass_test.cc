@@ -28,7 +28,7 @@ TEST(UndoLowPass, GivesBackWhatWentInUpToTheCutoff) {
       double most = 0;
       for (std::size_t i = 0; i < y.size(); ++i)
         if (std::isfinite(y[i])) most = std::max(most, std::abs(y[i] - std::sin(kTurn * f * t[i])));
-      EXPECT_LT(most, share < 0.5 ? 0.02 : share < 1 ? 0.1 : 0.35) << f << " of " << cutoff;
+      EXPECT_LT(most, share < 0.5 ? 0.003 : share < 1 ? 0.01 : 0.05) << f << " of " << cutoff;
       EXPECT_LT(std::count_if(y.begin(), y.end(), [](double v) { return std::isnan(v); }), 60);
     }
 }

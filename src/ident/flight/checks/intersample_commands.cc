@@ -138,8 +138,7 @@ void doubt_commands_between_rows(Result& result, const FlightRecord& record, std
                                  const HeldCommands& held) {
   // Commands of which some are missing are noisy ones: the slope over them falls, and an offset appears.
   if (commands_are_skipped(logs) && result.has_warning("command_offset"))
-    doubt_all(result, {"km", "Omega_0"},
-              "goes with an offset of commands of which the log states to skip some");
+    doubt_all(result, {"km", "Omega_0"}, "the log skips commands, which makes such an offset");
   if (!held.doubtful()) return;
   const char* const kWhy = held.refuted() ? "commands went on between those that were logged"
                                           : "commands may have gone on between those that were logged";

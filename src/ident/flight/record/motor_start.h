@@ -8,8 +8,8 @@
 
 namespace ident {
 
-/// At time `t`, s, as the commands of the third of a second before leave them; before the first command, as
-/// it alone would hold them. The inputs of `flight` are commands.
+/// At time `t`, s, as the commands of the 0.3 s before leave them. Before the first command that one holds.
+/// The inputs of `flight` are commands.
 std::array<MotorState<double>, kMaxRotors> motors_at_start(Flight<double, EffectSet<double>>& flight,
                                                            double t, std::size_t rotors);
 
