@@ -14,6 +14,7 @@
 #include "ident/core/parallel.h"
 #include "ident/core/stage_times.h"
 #include "ident/flight/checks/never_flew.h"
+#include "ident/flight/join/join_motion.h"
 #include "ident/io/file/sha256.h"
 #include "ident/io/log/log_map.h"
 #include "ident/io/log/read_flight_log.h"
@@ -46,15 +47,24 @@ void refuse_twice(const std::vector<FlightLog>& logs) {
       throw UsageError(last.file + " holds the same flight as " + log.file + ": give each flight once");
 }
 
+std::optional<LogMap> map_in(const std::string& file) {
+  if (file.empty()) return std::nullopt;
+  return read_log_map(file);
+}
+
+FlightLog read_one(const CampaignLog& log, const Vehicle& vehicle) {
+  FlightLog flight = read_flight_log(log.file, vehicle, map_in(log.map));
+  if (log.motion.empty()) return flight;
+  return with_motion(std::move(flight), read_motion(log.motion, map_in(log.motion_map)));
+}
+
 /// All at once; of what is wrong with several of them, the first is told.
 std::vector<FlightLog> read_all(const std::vector<CampaignLog>& logs, const Vehicle& vehicle) {
   std::vector<FlightLog> read(logs.size());
   std::vector<std::exception_ptr> wrong(logs.size());
   in_parallel(logs.size(), [&](std::size_t i) {
     try {
-      std::optional<LogMap> map;
-      if (!logs[i].map.empty()) map = read_log_map(logs[i].map);
-      read[i] = read_flight_log(logs[i].file, vehicle, map);
+      read[i] = read_one(logs[i], vehicle);
     } catch (...) {
       wrong[i] = std::current_exception();
     }
@@ -64,14 +74,37 @@ std::vector<FlightLog> read_all(const std::vector<CampaignLog>& logs, const Vehi
   return read;
 }
 
-std::string map_of(const FlightOptions& options, std::size_t file) {
-  if (options.maps.empty()) return {};
-  if (options.maps.size() == 1) return options.maps.front();
-  if (options.maps.size() != options.files.size())
+/// Of maps that are given once, or once for each of the files.
+std::string map_of(const std::vector<std::string>& maps, const char* option, std::size_t files,
+                   std::size_t file) {
+  if (maps.empty()) return {};
+  if (maps.size() == 1) return maps.front();
+  if (maps.size() != files)
     throw UsageError(
-        fmt::format("--map is given {} times for {} log{}: one map for all of them, or one for each",
-                    options.maps.size(), options.files.size(), options.files.size() == 1 ? "" : "s"));
-  return options.maps[file];
+        fmt::format("{} is given {} times for {} log{}: one map for all of them, or one for each", option,
+                    maps.size(), files, files == 1 ? "" : "s"));
+  return maps[file];
+}
+
+std::vector<CampaignLog> logs_of(const FlightOptions& options) {
+  const std::size_t files = options.files.size();
+  for (const auto& [option, given] : {std::pair("--map", &options.maps), {"--motion", &options.motions}})
+    if (files == 0 && !given->empty())
+      throw UsageError(std::string(option) +
+                       " is for the logs that stand beside it: those of ident.yaml name theirs there");
+  if (!options.motions.empty() && options.motions.size() != files)
+    throw UsageError(fmt::format("--motion is given {} times for {} log{}: one recording for each",
+                                 options.motions.size(), files, files == 1 ? "" : "s"));
+  if (options.motions.empty() && !options.motion_maps.empty())
+    throw UsageError("--motion-map is for the recordings of --motion: there are none");
+  std::vector<CampaignLog> logs;
+  for (std::size_t i = 0; i < files; ++i) {
+    logs.push_back({options.files[i], map_of(options.maps, "--map", files, i)});
+    if (options.motions.empty()) continue;
+    logs.back().motion = options.motions[i];
+    logs.back().motion_map = map_of(options.motion_maps, "--motion-map", files, i);
+  }
+  return logs;
 }
 
 }  // namespace
@@ -84,16 +117,20 @@ void add_flight_options(CLI::App& cli, FlightOptions& options) {
                  "which column is which signal, in which unit and frame; given once, or once for each log")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  cli.add_option("--motion", options.motions,
+                 "motion capture of the same flight in a file of its own, once for each log")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  cli.add_option("--motion-map", options.motion_maps, "as --map, for the files of --motion")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 FlightInput flight_input(const FlightOptions& options, Model model, Context& context) {
   const Stage stage("read files");
   FlightInput input;
   const std::optional<Campaign> campaign = find_campaign();
-  std::vector<CampaignLog> logs;
-  for (const std::string& file : options.files) logs.push_back({file, map_of(options, logs.size())});
-  if (logs.empty() && !options.maps.empty())
-    throw UsageError("--map is for the logs that stand beside it: those of ident.yaml name theirs there");
+  std::vector<CampaignLog> logs = logs_of(options);
   if (logs.empty() && campaign) {
     logs = campaign->logs;
     input.campaign = campaign;
@@ -123,7 +160,8 @@ FlightInput flight_input(const FlightOptions& options, Model model, Context& con
   }
   if (logs.empty()) throw UsageError("no flight log: name one, or list `logs` in ident.yaml");
   for (const CampaignLog& log : logs) {
-    if (!log.map.empty()) context.used.push_back(log.map);
+    for (const std::string* used : {&log.map, &log.motion, &log.motion_map})
+      if (!used->empty()) context.used.push_back(*used);
     std::error_code unreadable;                                  // which the reader tells
     if (std::filesystem::is_regular_file(log.file, unreadable))  // a pipe can be read only once
       context.hashes.try_emplace(log.file, std::async(std::launch::async, sha256_of_file, log.file));

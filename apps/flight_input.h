@@ -13,7 +13,8 @@
 namespace ident::app {
 
 struct FlightOptions {
-  std::vector<std::string> files, maps;  ///< one map for all of the files, or one for each
+  std::vector<std::string> files, maps;           ///< one map for all of the files, or one for each
+  std::vector<std::string> motions, motion_maps;  ///< recordings of motion capture, one for each of the files
   std::string vehicle, params;
 };
 

@@ -57,6 +57,7 @@ Outcome run(const Options& options, Context& context) {
   if (!options.simulated.empty()) {
     FlightOptions other = options.flight;
     other.files = options.simulated, other.maps = options.simulated_maps;
+    other.motions.clear(), other.motion_maps.clear();
     simulated = flown_input(other, context).logs;
   }
   Progress progress("diagnosing");

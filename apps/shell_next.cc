@@ -42,9 +42,15 @@ std::string next_in_campaign(const Campaign& campaign, const std::string& step) 
   return "";
 }
 
-std::string logs_of(const Result& result) {
+/// Logs, and what they were read with.
+std::string logs_of(const Result& result, const std::vector<std::string>& words) {
   std::string logs;
   for (const std::string& input : result.inputs) logs += " " + input;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    for (const char* option : {"--map", "--motion", "--motion-map"}) {
+      if (words[i] == option && i + 1 < words.size()) logs += " " + words[i] + " " + words[i + 1];
+      if (words[i].starts_with(option + std::string("="))) logs += " " + words[i];
+    }
   return logs;
 }
 
@@ -54,13 +60,14 @@ std::string next_with_files(const Result& result, const std::vector<std::string>
   if (result.command == "gap") {
     if (has(words, "--simulated")) return "";
     const std::string better = option_value(words, "--fix", option_value(words, "--write-params", ""));
-    if (!better.empty()) return "ident gap" + logs_of(result) + " --vehicle " + better;
+    if (!better.empty()) return "ident gap" + logs_of(result, words) + " --vehicle " + better;
     const bool named = !result.extra.at("verdict").at("effects").empty();
-    return named ? "ident gap" + logs_of(result) + " --vehicle " + vehicle + " --write-params better.yaml"
+    return named ? "ident gap" + logs_of(result, words) + " --vehicle " + vehicle +
+                       " --write-params better.yaml"
                  : "";
   }
   if (result.command == "flightlog") {
-    const std::string same = logs_of(result) + " --vehicle " + vehicle;
+    const std::string same = logs_of(result, words) + " --vehicle " + vehicle;
     return has(words, "--refine") ? "ident gap" + same : "ident flightlog" + same + " --refine";
   }
   if (result.command != "simulate") return "";

@@ -203,5 +203,79 @@ TEST(Profiles, MoreMotorsThanTheVehicleHasAreAnError) {
   EXPECT_THROW(flight_log_of(dataflash(), three, {}), InputError);
 }
 
+/// A stream of a bag: each field waves.
+LogStream topic(const std::string& name, const std::vector<std::string>& fields, double step = 0.01) {
+  const std::vector<double> t = times(0.0, step, static_cast<int>(std::lround(10 / step)));
+  LogStream stream{.name = name, .clock = "", .t = t, .fields = {}};
+  double phase = 0;
+  for (const std::string& field : fields) stream.fields.push_back({field, "", 1.0, wave(t, 0, 0.5, ++phase)});
+  return stream;
+}
+
+std::vector<std::string> pose(const std::string& of) {
+  std::vector<std::string> fields;
+  for (const char* axis : {"x", "y", "z"}) fields.push_back(of + "position." + axis);
+  for (const char* axis : {"w", "x", "y", "z"}) fields.push_back(of + "orientation." + axis);
+  return fields;
+}
+
+LogStream imu(const std::string& name) {
+  std::vector<std::string> fields;
+  for (const char* of : {"angular_velocity.", "linear_acceleration."})
+    for (const char* axis : {"x", "y", "z"}) fields.push_back(std::string(of) + axis);
+  LogStream stream = topic(name, fields);
+  stream.fields.back().values = wave(stream.t, 9.8, 0.5, 1);  // up
+  return stream;
+}
+
+/// Unit quaternions about one axis.
+void turn(LogStream& stream, const std::string& of) {
+  const auto values = [&](const char* axis) -> StoredValues& {
+    const auto at = std::ranges::find(stream.fields, of + "orientation." + axis, &StreamField::name);
+    return at->values;
+  };
+  std::vector<double> w, z, none(stream.t.size(), 0.0);
+  for (const double t : stream.t) w.push_back(std::cos(0.1 * t)), z.push_back(std::sin(0.1 * t));
+  values("w") = w, values("x") = none, values("y") = none, values("z") = z;
+}
+
+TEST(Profiles, ABagOfRosIsForwardLeftUp) {
+  LogStream odometry = topic("/mavros/local_position/odom", pose("pose.pose."), 0.05);
+  turn(odometry, "pose.pose.");
+  LogStream speeds = topic("/mavros/esc_status", {});
+  for (int n = 0; n < 4; ++n)
+    speeds.fields.push_back(
+        {"esc_status[" + std::to_string(n) + "].rpm", "", 1.0, wave(speeds.t, 6000, 300, n)});
+  // A pose that is wanted, more often than the one that was, and the sticks of the remote control.
+  const LogStream wanted = topic("/mavros/setpoint_position/local", pose("pose."), 0.01),
+                  sticks = topic("/mavros/rc/in", {"channels[0]", "channels[1]"});
+  const LogStreams bag{.file = "flight.mcap",
+                       .format = "mcap",
+                       .streams = {imu("/mavros/imu/data"), odometry, wanted, sticks, speeds}};
+  const FlightLog log = flight_log_of(bag, Vehicle{}, {});
+  const std::size_t i = row_at(log, 2.0);
+  EXPECT_NEAR(log.w_B[1][i], -0.5 * std::sin(7 * 2.0 + 2), 1e-9);
+  EXPECT_NEAR(log.f_B[2][i], -(9.8 + 0.5 * std::sin(7 * 2.0 + 1)), 1e-9);
+  EXPECT_NEAR(log.x_W[0][i], bag.streams[1].find("pose.pose.position.y")->at(40), 1e-9);  // north is y
+  EXPECT_NEAR(log.Omega[2][i], (6000 + 300 * std::sin(7 * 2.0 + 2)) * M_PI / 30, 1e-9);
+  EXPECT_FALSE(log.has_commands());
+  EXPECT_FALSE(log.has_velocity());
+}
+
+TEST(Profiles, ABagOfPx4IsReadAsItsLog) {
+  LogStream gyro = topic("/fmu/out/sensor_combined", {"gyro_rad[0]", "gyro_rad[1]", "gyro_rad[2]"});
+  LogStream motors = topic("/fmu/out/actuator_motors_v1", {});
+  for (int n = 0; n < 12; ++n)
+    motors.fields.push_back(
+        {"control[" + std::to_string(n) + "]", "", 1.0,
+         n < 4 ? wave(motors.t, 0.5, 0.1, n) : std::vector<double>(motors.t.size(), NAN)});
+  const LogStreams bag{.file = "flight.db3", .format = "rosbag2", .streams = {gyro, motors}};
+  const FlightLog log = flight_log_of(bag, Vehicle{}, {});
+  ASSERT_EQ(log.delta.size(), 4U);
+  const std::size_t i = row_at(log, 2.0);
+  EXPECT_NEAR(log.delta[1][i], 0.5 + 0.1 * std::sin(7 * 2.0 + 1), 1e-9);
+  EXPECT_NEAR(log.w_B[2][i], 0.5 * std::sin(7 * 2.0 + 3), 1e-9);  // forward, right, down as they are
+}
+
 }  // namespace
 }  // namespace ident

@@ -7,6 +7,7 @@
 #include "ident/core/parallel.h"
 #include "ident/core/statistics.h"
 #include "ident/flight/record/motor_start.h"
+#include "ident/flight/record/velocity_of_positions.h"
 
 namespace ident {
 namespace {
@@ -100,6 +101,17 @@ void simulate_motors(FlightArc& arc, const Vehicle& vehicle, std::span<const dou
   }
 }
 
+std::vector<double> column_of(const FlightArc& arc, int channel) {
+  std::vector<double> column(arc.rows());
+  for (std::size_t i = 0; i < arc.rows(); ++i)
+    column[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
+  return column;
+}
+
+bool any_number(const std::vector<double>& column) {
+  return std::ranges::any_of(column, [](double y) { return std::isfinite(y); });
+}
+
 // Measurements of the body of an arc, without gaps; empty columns where nothing was measured.
 struct BodyColumns {
   std::array<std::vector<double>, 3> w, v, x;
@@ -115,6 +127,8 @@ BodyColumns body_columns(const FlightArc& arc, const std::array<double, kChannel
       of.w[k] = filled_column(arc, kGyro + axis);
     } else if (c < 6) {
       of.v[k] = filled_column(arc, kVelocity + axis);
+      if (const std::vector<double> x = column_of(arc, kPosition + axis); of.v[k].empty() && any_number(x))
+        of.v[k] = velocity_of_positions(arc.t, x, sigma[kPosition + k]);
     } else if (c < 9) {
       of.x[k] = averaged(arc.t, filled_column(arc, kPosition + axis), sigma[kPosition + k]);
     } else {
@@ -135,10 +149,6 @@ void set_body(FlightArc& arc, const BodyColumns& of, std::size_t i) {
     b.w_B[at] = filled(w[k], i, 0.0);
     b.x_W[at] = filled(x[k], i, -10.0 * static_cast<double>(k == 2));
     b.v_W[at] = filled(v[k], i, 0.0);
-    if (v[k].empty() && !x[k].empty()) {
-      const std::size_t a = i > 5 ? i - 5 : 0, e = std::min(i + 5, rows - 1);
-      b.v_W[at] = (x[k][e] - x[k][a]) / (arc.t[e] - arc.t[a]);
-    }
   }
   for (std::size_t k = 0; k < 4; ++k)
     b.q_WB[static_cast<Eigen::Index>(k)] = filled(q[k], i, k == 0 ? 1.0 : 0.0);
@@ -171,10 +181,7 @@ std::vector<double> interpolated(const std::vector<double>& t, const std::vector
 }
 
 std::vector<double> filled_column(const FlightArc& arc, int channel) {
-  std::vector<double> column(arc.rows());
-  for (std::size_t i = 0; i < arc.rows(); ++i)
-    column[i] = arc.y[i * kChannels + static_cast<std::size_t>(channel)];
-  return interpolated(arc.t, column);
+  return interpolated(arc.t, column_of(arc, channel));
 }
 
 void set_noise_and_motor_start(FlightRecord& record, std::span<const double> p) {

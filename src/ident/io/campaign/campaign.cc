@@ -44,11 +44,14 @@ std::vector<std::string> named_files(const YamlValue& file, const std::string& k
 }
 
 CampaignLog read_log(const YamlValue& value, const fs::path& folder, const std::string& common_map) {
-  static const std::vector<std::string> keys = {"file", "map"};
+  static const std::vector<std::string> keys = {"file", "map", "motion", "motion_map"};
   if (!value.is_map()) return {named_file(value, folder), common_map};
   value.expect_map(keys);
-  return {named_file(value.at("file"), folder),
-          value.has("map") ? named_file(value.at("map"), folder) : common_map};
+  const auto named = [&](const char* key, const std::string& otherwise) {
+    return value.has(key) ? named_file(value.at(key), folder) : otherwise;
+  };
+  return {named_file(value.at("file"), folder), named("map", common_map), named("motion", ""),
+          named("motion_map", "")};
 }
 
 /// What the vehicle file states otherwise than it can have been when the parameter file was written.

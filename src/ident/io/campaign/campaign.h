@@ -10,9 +10,9 @@
 
 namespace ident {
 
-/// A log and the map to read it with (empty: none).
+/// A log and the map to read it with (empty: none), and the same of a recording of motion capture.
 struct CampaignLog {
-  std::string file, map;
+  std::string file, map, motion = {}, motion_map = {};
 };
 
 /// The keys of `ident.yaml`; every file is relative to the folder of `ident.yaml`, paths here are ready to
@@ -28,6 +28,7 @@ struct CampaignLog {
 ///   logs:                                # names, or a name with a map of its own
 ///     - hover.csv
 ///     - {file: dash.csv, map: other.yaml}
+///     - {file: loops.bbl, motion: loops.mcap, motion_map: capture.yaml}
 struct Campaign {
   std::string file;  ///< ident.yaml itself
   std::string vehicle;

@@ -49,9 +49,13 @@ std::string campaign_text(const Campaign& campaign, const std::string& folder) {
     return out;
   };
   std::vector<std::string> logs;
-  for (const CampaignLog& log : campaign.logs)
-    logs.push_back(log.map.empty() ? name(log.file)
-                                   : fmt::format("{{file: {}, map: {}}}", name(log.file), name(log.map)));
+  for (const CampaignLog& log : campaign.logs) {
+    std::string beside;
+    for (const auto& [key, path] :
+         {std::pair("map", log.map), {"motion", log.motion}, {"motion_map", log.motion_map}})
+      if (!path.empty()) beside += fmt::format(", {}: {}", key, name(path));
+    logs.push_back(beside.empty() ? name(log.file) : fmt::format("{{file: {}{}}}", name(log.file), beside));
+  }
   return "# The files of one vehicle: commands that run in this folder take theirs from here.\n" +
          fmt::format("vehicle: {}\n", name(campaign.vehicle)) +
          fmt::format("{:<30} # where commands store what they find\n",

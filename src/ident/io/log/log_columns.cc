@@ -17,13 +17,17 @@ namespace {
 class Chooser {
  public:
   Chooser(const std::string& path, const CsvReader& csv, const Vehicle& vehicle,
-          const std::optional<LogMap>& map)
-      : path_(path), csv_(csv), vehicle_(vehicle), map_(map) {}
+          const std::optional<LogMap>& map, LogContent content)
+      : path_(path), csv_(csv), vehicle_(vehicle), map_(map), content_(content) {}
 
   LogColumns run() {
     out_.header_line = csv_.header_line();
     choose_mapped();
     choose_by_name();
+    if (content_ == LogContent::motion) {
+      expect_attitude();
+      return std::move(out_);
+    }
     count_rotors();
     expect_something_to_work_on();
     return std::move(out_);
@@ -64,7 +68,7 @@ class Chooser {
     if (!map_) return;
     for (const LogSignal& s : log_signals(kMostRotors)) {
       const auto at = map_->columns.find(s.signal.name);
-      if (at == map_->columns.end()) continue;
+      if (at == map_->columns.end() || !is_read(s.group, content_)) continue;
       spoken_for_.insert(s.group);
       const MappedColumn& mapped = at->second;
       if (mapped.column.empty()) continue;
@@ -85,7 +89,7 @@ class Chooser {
   void choose_by_name() {
     TableSchema schema;
     for (const LogSignal& s : log_signals(kMostRotors))
-      if (!spoken_for_.contains(s.group)) schema.signals.push_back(s.signal);
+      if (!spoken_for_.contains(s.group) && is_read(s.group, content_)) schema.signals.push_back(s.signal);
     const HeaderMatch match = match_header(path_, csv_, schema);
     for (const ChosenColumn& column : match.columns) {
       if (column.is_time) out_.time_unit_stated = states_unit(column.index);
@@ -134,6 +138,16 @@ class Chooser {
       fail("u1", fmt::format("pulse widths need 'command: {{min: .., max: ..}}' in {}", vehicle_title()));
   }
 
+  void expect_attitude() const {
+    const auto expect = [&](bool there, const char* columns) {
+      if (!there)
+        fail(columns,
+             "missing: a recording of a motion needs it, and the file has: " + column_list(csv_.header()));
+    };
+    expect(out_.has("t"), "t");
+    expect(out_.has("qw") || out_.has("phi"), "qw..qz or phi,theta,psi");
+  }
+
   void expect_something_to_work_on() const {
     const std::string list = column_list(csv_.header());
     if (!out_.has("t")) fail("t", "the column is missing; a flight log needs it, and the file has: " + list);
@@ -151,6 +165,7 @@ class Chooser {
   const CsvReader& csv_;
   const Vehicle& vehicle_;
   const std::optional<LogMap>& map_;
+  LogContent content_;
   std::set<LogGroup> spoken_for_;
   LogColumns out_;
 };
@@ -162,8 +177,8 @@ bool LogColumns::has(const std::string& name) const {
 }
 
 LogColumns choose_log_columns(const std::string& path, const CsvReader& csv, const Vehicle& vehicle,
-                              const std::optional<LogMap>& map) {
-  return Chooser(path, csv, vehicle, map).run();
+                              const std::optional<LogMap>& map, LogContent content) {
+  return Chooser(path, csv, vehicle, map, content).run();
 }
 
 }  // namespace ident

@@ -7,6 +7,7 @@
 
 #include "ident/io/csv/csv_reader.h"
 #include "ident/io/csv/read_columns.h"
+#include "ident/io/log/log_signals.h"
 #include "ident/io/log/read_flight_log.h"
 
 namespace ident {
@@ -24,6 +25,6 @@ struct LogColumns {
 /// Throws InputError where the map or the log lacks a column, where rotors are missing or too many, and where
 /// the log holds nothing to work on.
 LogColumns choose_log_columns(const std::string& path, const CsvReader& csv, const Vehicle& vehicle,
-                              const std::optional<LogMap>& map);
+                              const std::optional<LogMap>& map, LogContent content = LogContent::flight);
 
 }  // namespace ident

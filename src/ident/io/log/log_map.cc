@@ -10,8 +10,8 @@
 namespace ident {
 namespace {
 
-const std::vector<std::string> kMapKeys = {"columns",  "frames",  "windows", "formats",
-                                           "airborne", "outputs", "command", "controller_rate"};
+const std::vector<std::string> kMapKeys = {"columns", "frames",  "windows",         "formats",    "airborne",
+                                           "outputs", "command", "controller_rate", "not_streams"};
 const std::vector<std::string> kFrameKeys = {"body", "world"};
 const std::vector<std::string> kAirborneKeys = {"stream", "column", "is", "from", "until", "commands_above"};
 const std::vector<std::string> kOutputKeys = {"function", "motors"};
@@ -69,6 +69,7 @@ void read_profile_keys(const YamlValue& file, LogMap& map) {
     map.output_function = outputs.at("function").text();
     for (const YamlValue& value : outputs.at("motors").list()) map.motor_functions.push_back(value.number());
   }
+  if (file.has("not_streams")) map.not_streams = words(file.at("not_streams"));
   if (file.has("controller_rate")) map.controller_rate = words(file.at("controller_rate"));
   if (file.has("command")) {
     const YamlValue command = file.at("command");

@@ -34,6 +34,11 @@ std::vector<LogSignal> log_signals(int rotors) {
   return list;
 }
 
+bool is_read(LogGroup group, LogContent content) {
+  return content == LogContent::flight || group == LogGroup::time || group == LogGroup::attitude ||
+         group == LogGroup::position || group == LogGroup::velocity;
+}
+
 int highest_number(const std::vector<std::string>& names, const std::string& prefix) {
   int highest = 0;
   for (const std::string& name : names) {

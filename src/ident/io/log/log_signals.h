@@ -29,6 +29,13 @@ struct LogSignal {
 /// All signals with numbered ones up to `rotors`.
 std::vector<LogSignal> log_signals(int rotors);
 
+/// What a file is read for: a flight with what drove its motors, or how a body moved and nothing else, as
+/// motion capture records it.
+enum class LogContent { flight, motion };
+
+/// Whether a file that is read for that is asked for signals of the group.
+bool is_read(LogGroup group, LogContent content);
+
 /// How many rotors a set of names counts: the highest N of `prefix`N; 0 without any.
 int highest_number(const std::vector<std::string>& names, const std::string& prefix);
 

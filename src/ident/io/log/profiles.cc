@@ -8,16 +8,26 @@
 #include "ident/io/log/log_map.h"
 #include "ident/io/log/log_signals.h"
 #include "ident/io/log/profile_texts.h"
+#include "ident/io/log/stream_signals.h"
 
 namespace ident {
 namespace {
 
-std::optional<LogMap> profile_of(std::string_view format) {
+/// How many signals of a map a log has.
+long signals_in(const LogStreams& log, const LogMap& map) {
+  return std::ranges::count_if(map.columns,
+                               [&](const auto& line) { return has_signal(log, map, line.second); });
+}
+
+std::optional<LogMap> profile_of(const LogStreams& log) {
+  std::optional<LogMap> best;
+  long most = -1;
   for (const ProfileText& profile : profile_texts()) {
     LogMap map = parse_log_map(std::string(profile.text), "profile " + std::string(profile.name));
-    if (std::ranges::find(map.formats, format) != map.formats.end()) return map;
+    if (std::ranges::find(map.formats, log.format) == map.formats.end()) continue;
+    if (const long found = signals_in(log, map); found > most) most = found, best = std::move(map);
   }
-  return std::nullopt;
+  return best;
 }
 
 /// Two spellings of one thing: pulse widths and normalised commands, quaternion and angles.
@@ -68,10 +78,10 @@ void lay_over(LogMap& map, const LogMap& user) {
 
 }  // namespace
 
-LogMap map_for_format(std::string_view format, const std::optional<LogMap>& user) {
-  std::optional<LogMap> map = profile_of(format);
+LogMap map_for_log(const LogStreams& log, const std::optional<LogMap>& user) {
+  std::optional<LogMap> map = profile_of(log);
   if (!map && !user)
-    throw UsageError("logs of the format '" + std::string(format) +
+    throw UsageError("logs of the format '" + log.format +
                      "' have no profile: name streams and columns in a map (--map)");
   if (!map) map.emplace();
   if (user) lay_over(*map, *user);

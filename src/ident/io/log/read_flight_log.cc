@@ -32,10 +32,11 @@ using Rows = std::vector<double>;
 
 class Builder {
  public:
-  Builder(NumberTable table, const Vehicle& vehicle, const std::optional<LogMap>& map,
+  Builder(NumberTable table, const Vehicle& vehicle, const std::optional<LogMap>& map, LogContent content,
           const LogColumns& columns, std::vector<double> breaks, double first)
       : table_(std::move(table)),
         vehicle_(vehicle),
+        content_(content),
         map_(map.value_or(LogMap{})),
         columns_(columns),
         first_(first) {
@@ -45,6 +46,7 @@ class Builder {
     log_.notices = table_.notices;
     log_.notices.insert(log_.notices.end(), columns.notices.begin(), columns.notices.end());
     log_.breaks = std::move(breaks);
+    if (content_ == LogContent::motion) map_.windows.clear();  // those are of the flight, on another clock
   }
 
   FlightLog run() {
@@ -200,6 +202,10 @@ class Builder {
     check_specific_force(log_, columns_.header_line, vehicle_.g);
     check_rates_against_attitude(log_, columns_.header_line, table_.find("qw") != nullptr);
     check_velocity_axes(log_, columns_.header_line, to_frd(map_.body) * to_ned(map_.world).transpose());
+    if (content_ == LogContent::motion) {
+      if (!log_.has_attitude()) throw DataError(log_.file + ": attitude holds no usable value");
+      return;
+    }
     const bool moves =
         log_.has_rates() || log_.has_specific_force() || log_.has_attitude() || log_.has_velocity();
     if (!moves)
@@ -253,6 +259,7 @@ class Builder {
 
   NumberTable table_;
   const Vehicle& vehicle_;
+  LogContent content_;
   LogMap map_;
   const LogColumns& columns_;
   double first_;
@@ -261,38 +268,51 @@ class Builder {
 };
 
 FlightLog build(NumberTable table, const Vehicle& vehicle, const std::optional<LogMap>& map,
-                const LogColumns& columns) {
+                const LogColumns& columns, LogContent content) {
   TableSchema schema{.kind = "flight log", .required = {{{"t"}}}};
   for (const LogSignal& s : log_signals(kMostRotors)) schema.signals.push_back(s.signal);
   drop_empty_columns(table, schema);
   expect_plausible(table, schema, columns.header_line);
   std::vector<double> breaks = put_time_in_order(table);
   const double first = count_from_begin(table, breaks);
-  return Builder(std::move(table), vehicle, map, columns, std::move(breaks), first).run();
+  return Builder(std::move(table), vehicle, map, content, columns, std::move(breaks), first).run();
+}
+
+FlightLog from_csv(const std::string& path, const Vehicle& vehicle, const std::optional<LogMap>& map,
+                   LogContent content) {
+  refuse_no_log(first_bytes(path, kRecognisedFrom), path);
+  CsvReader csv(path);
+  const std::optional<LogMap> used = map ? map : map_for_header(csv.header());
+  LogColumns columns = choose_log_columns(path, csv, vehicle, used, content);
+  if (used && !map) columns.notices.push_back(path + ": read by the " + used->file);
+  return build(read_columns(path, csv, columns.columns, {}), vehicle, used, columns, content);
+}
+
+FlightLog from_streams(const LogStreams& log, const Vehicle& vehicle, const std::optional<LogMap>& map,
+                       LogContent content) {
+  StreamTable streams = make_stream_table(log, vehicle, map_for_log(log, map), content);
+  FlightLog flight = build(std::move(streams.table), streams.vehicle, streams.map, streams.columns, content);
+  flight.loop = flight.has_commands() ? streams.loop : 0.0;
+  flight.each_command = flight.has_commands() && streams.each_command;
+  return flight;
 }
 
 }  // namespace
 
 FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const std::optional<LogMap>& map) {
-  if (!log_format_of_file(path).empty()) {
-    LogStreams log = read_log_streams(path);
-    add_rebuilt_commands(log);
-    return flight_log_of(log, vehicle, map);
-  }
-  refuse_no_log(first_bytes(path, kRecognisedFrom), path);
-  CsvReader csv(path);
-  const std::optional<LogMap> used = map ? map : map_for_header(csv.header());
-  LogColumns columns = choose_log_columns(path, csv, vehicle, used);
-  if (used && !map) columns.notices.push_back(path + ": read by the " + used->file);
-  return build(read_columns(path, csv, columns.columns, {}), vehicle, used, columns);
+  if (log_format_of_file(path).empty()) return from_csv(path, vehicle, map, LogContent::flight);
+  LogStreams log = read_log_streams(path);
+  add_rebuilt_commands(log);
+  return flight_log_of(log, vehicle, map);
 }
 
 FlightLog flight_log_of(const LogStreams& log, const Vehicle& vehicle, const std::optional<LogMap>& map) {
-  StreamTable streams = make_stream_table(log, vehicle, map_for_format(log.format, map));
-  FlightLog flight = build(std::move(streams.table), streams.vehicle, streams.map, streams.columns);
-  flight.loop = flight.has_commands() ? streams.loop : 0.0;
-  flight.each_command = flight.has_commands() && streams.each_command;
-  return flight;
+  return from_streams(log, vehicle, map, LogContent::flight);
+}
+
+FlightLog read_motion(const std::string& path, const std::optional<LogMap>& map) {
+  if (log_format_of_file(path).empty()) return from_csv(path, Vehicle{}, map, LogContent::motion);
+  return from_streams(read_log_streams(path), Vehicle{}, map, LogContent::motion);
 }
 
 }  // namespace ident

@@ -75,6 +75,7 @@ struct LogMap {
   std::vector<double> motor_functions;       ///< its values for motor 1, 2, ...
   std::vector<std::string> controller_rate;  ///< parameters with how often motors are told something, or Hz
   std::array<std::vector<std::string>, 2> command;  ///< parameters with the pulse widths of command 0 and 1
+  std::vector<std::string> not_streams;             ///< words in the names of streams that are no measurement
 };
 
 /// Reads a log in SI units, FRD and NED: CSV, or any format of log_formats.def, by its profile. The number of
@@ -85,5 +86,9 @@ FlightLog read_flight_log(const std::string& path, const Vehicle& vehicle, const
 
 /// The same from streams that were read.
 FlightLog flight_log_of(const LogStreams& log, const Vehicle& vehicle, const std::optional<LogMap>& map);
+
+/// Attitude, position and velocity alone, from the same kinds of files: a motion capture's recording of a
+/// flight. Throws InputError where the file has no attitude.
+FlightLog read_motion(const std::string& path, const std::optional<LogMap>& map);
 
 }  // namespace ident

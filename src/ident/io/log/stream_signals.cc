@@ -35,6 +35,11 @@ class Finder {
  public:
   Finder(const LogStreams& log, const LogMap& map) : log_(log), map_(map) {}
 
+  bool has(const MappedColumn& mapped) const {
+    return find(mapped).field != nullptr ||
+           std::ranges::any_of(mapped.otherwise, [&](const MappedColumn& other) { return has(other); });
+  }
+
   StreamSignals run() {
     for (const LogSignal& s : log_signals(kMostRotors)) {
       const auto at = map_.columns.find(s.signal.name);
@@ -87,9 +92,16 @@ class Finder {
     }
     Source most;
     for (const LogStream& stream : log_.streams)
-      if (const StreamField* field = stream.find(column))
+      if (const StreamField* field = is_measured(stream) ? stream.find(column) : nullptr)
         if (!most.field || field->size() > most.field->size()) most = {&stream, field};
     return most;
+  }
+
+  /// What is wanted of a vehicle bears the same fields as what it did.
+  bool is_measured(const LogStream& stream) const {
+    return std::ranges::none_of(map_.not_streams, [&](const std::string& word) {
+      return stream.name.find(word) != std::string::npos;
+    });
   }
 
   /// value = factor * number + offset. Nothing where the log does not state a parameter that it takes.
@@ -227,6 +239,13 @@ class Finder {
   StreamSignals out_;
 };
 
+/// A topic of ROS without the version that PX4 appends: `/fmu/out/vehicle_status_v1`.
+std::string_view without_version(std::string_view topic) {
+  const std::size_t digits = topic.find_last_not_of("0123456789") + 1;
+  return digits < topic.size() && topic.substr(0, digits).ends_with("_v") ? topic.substr(0, digits - 2)
+                                                                          : topic;
+}
+
 }  // namespace
 
 const StreamSignal* StreamSignals::find(std::string_view name) const {
@@ -236,13 +255,20 @@ const StreamSignal* StreamSignals::find(std::string_view name) const {
 
 StreamSignals stream_signals(const LogStreams& log, const LogMap& map) { return Finder(log, map).run(); }
 
+bool has_signal(const LogStreams& log, const LogMap& map, const MappedColumn& mapped) {
+  return Finder(log, map).has(mapped);
+}
+
 const LogStream* find_stream(const LogStreams& log, const std::string& name) {
   if (const LogStream* exact = log.find(name)) return exact;
   if (const LogStream* first = log.find(name + ":0")) return first;
   const LogStream* longest = nullptr;
-  for (const LogStream& stream : log.streams)
-    if (stream.name.ends_with(":" + name) && (!longest || stream.t.size() > longest->t.size()))
+  for (const LogStream& stream : log.streams) {
+    const std::string_view topic = without_version(stream.name);
+    if ((stream.name.ends_with(":" + name) || topic.ends_with("/" + name)) &&
+        (!longest || stream.t.size() > longest->t.size()))
       longest = &stream;
+  }
   return longest;
 }
 

@@ -29,8 +29,12 @@ struct StreamSignals {
 /// Throws InputError where a user's map names what the log does not hold, or a unit that is not known.
 StreamSignals stream_signals(const LogStreams& log, const LogMap& map);
 
+/// Whether a log has the stream and field of a line of a map, or of one of its alternatives.
+bool has_signal(const LogStreams& log, const LogMap& map, const MappedColumn& mapped);
+
 /// The stream of a name, or its first instance: `vehicle_attitude` is `vehicle_attitude:0`. Of several logs
-/// in a file the longest: `main` is `2:main` where that has the most samples.
+/// in a file the longest: `main` is `2:main` where that has the most samples. A topic of ROS has the name
+/// that it ends with, without its version: `vehicle_status` is `/fmu/out/vehicle_status_v1`.
 const LogStream* find_stream(const LogStreams& log, const std::string& name);
 
 }  // namespace ident

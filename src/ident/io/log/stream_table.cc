@@ -18,8 +18,8 @@ namespace {
 
 class Maker {
  public:
-  Maker(const LogStreams& log, const Vehicle& vehicle, const LogMap& map)
-      : log_(log), signals_(stream_signals(log, map)) {
+  Maker(const LogStreams& log, const Vehicle& vehicle, const LogMap& map, LogContent content)
+      : log_(log), content_(content), signals_(stream_signals(log, map)) {
     out_.map = map;
     out_.vehicle = vehicle;
     out_.table.file = log.file;
@@ -27,11 +27,15 @@ class Maker {
 
   StreamTable run() {
     if (log_.streams.empty()) fail("the log holds no samples");
-    count_rotors();
-    take_command_range();
-    expect_something();
-    take_windows();
-    take_loop();
+    if (content_ == LogContent::motion) {
+      leave_motion();
+    } else {
+      count_rotors();
+      take_command_range();
+      expect_something();
+      take_windows();
+      take_loop();
+    }
     fill();
     tell_sources();
     tell_damage();
@@ -95,20 +99,31 @@ class Maker {
         "{}: command 0 is {} us and 1 is {} us, as the log's parameters say", log_.file, *min, *max));
   }
 
-  void expect_something() const {
-    const auto has = [&](std::initializer_list<LogGroup> groups) {
-      return std::ranges::any_of(signals_.list, [&](const StreamSignal& s) {
-        return std::ranges::find(groups, s.group) != groups.end();
-      });
-    };
+  bool has(std::initializer_list<LogGroup> groups) const {
+    return std::ranges::any_of(signals_.list, [&](const StreamSignal& s) {
+      return std::ranges::find(groups, s.group) != groups.end();
+    });
+  }
+
+  std::string stream_list() const {
     constexpr std::size_t kShown = 12;  // streams; PX4 logs a hundred
     std::vector<std::string> names;
     for (const LogStream& stream : log_.streams)
       if (names.size() < kShown) names.push_back(stream.name);
-    const std::string list = fmt::format("{}{}", fmt::join(names, ", "),
-                                         names.size() < log_.streams.size()
-                                             ? fmt::format(" and {} more", log_.streams.size() - names.size())
-                                             : "");
+    return fmt::format("{}{}", fmt::join(names, ", "),
+                       names.size() < log_.streams.size()
+                           ? fmt::format(" and {} more", log_.streams.size() - names.size())
+                           : "");
+  }
+
+  void leave_motion() {
+    std::erase_if(signals_.list, [&](const StreamSignal& s) { return !is_read(s.group, content_); });
+    out_.columns.time_unit_stated = true;
+    if (!has({LogGroup::attitude})) fail("no attitude is in the recording; its streams: " + stream_list());
+  }
+
+  void expect_something() const {
+    const std::string list = stream_list();
     if (!has({LogGroup::command, LogGroup::rotor_speed}))
       fail("neither commands of motors nor rotor speeds are in the log; its streams: " + list);
     if (!has({LogGroup::rates, LogGroup::specific_force, LogGroup::attitude, LogGroup::velocity}))
@@ -215,14 +230,16 @@ class Maker {
   }
 
   const LogStreams& log_;
+  LogContent content_;
   StreamSignals signals_;
   StreamTable out_;
 };
 
 }  // namespace
 
-StreamTable make_stream_table(const LogStreams& log, const Vehicle& vehicle, const LogMap& map) {
-  return Maker(log, vehicle, map).run();
+StreamTable make_stream_table(const LogStreams& log, const Vehicle& vehicle, const LogMap& map,
+                              LogContent content) {
+  return Maker(log, vehicle, map, content).run();
 }
 
 }  // namespace ident

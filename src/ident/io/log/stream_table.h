@@ -20,6 +20,7 @@ struct StreamTable {
 
 /// Throws InputError where the log lacks what a flight log needs or drives more motors than the vehicle has,
 /// and DataError where the vehicle never flew.
-StreamTable make_stream_table(const LogStreams& log, const Vehicle& vehicle, const LogMap& map);
+StreamTable make_stream_table(const LogStreams& log, const Vehicle& vehicle, const LogMap& map,
+                              LogContent content = LogContent::flight);
 
 }  // namespace ident

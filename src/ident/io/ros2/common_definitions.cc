@@ -180,6 +180,9 @@ Header header
 float64[] angles
 float64[] angular_velocities
 float64[] normalized
+MSG: mavros_msgs/RCOut
+std_msgs/Header header
+uint16[] channels
 MSG: mavros_msgs/ESCStatusItem
 Header header
 int32 rpm
