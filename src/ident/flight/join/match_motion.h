@@ -26,6 +26,7 @@ struct MotionMatch {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< from the recorded body's axes to the log's
   double turn_std = std::numbers::pi;                  ///< rad, about the axis about which it is known worst
   double alike = 0.0;                                  ///< share of the rates that the recording explains
+  double seconds = 0.0;                                ///< that both show
 
   double to_log(double t) const { return t + offset + drift * (t - middle); }
 };
