@@ -150,9 +150,9 @@ class Climb {
     with.insert(with.end(), model.constants.begin(), model.constants.end());
     const RungResult below = result_.rungs[result_.chosen];  // a copy: rungs are added
     const Theta by_training = theta_of(below.trained, with), by_all = theta_of(below.p, with);
-    const std::vector<HeldConstant> held = held_beside(with, below);
-    const WindowFit trained = fit_windows(training_motion_, by_training, model.what, held),
-                    whole = fit_windows(whole_motion_, by_all, model.what, held);
+    // Of the fit to a part only the values count.
+    const WindowFit trained = fit_windows(training_motion_, by_training, model.what, {}),
+                    whole = fit_windows(whole_motion_, by_all, model.what, held_beside(with, below));
     RungResult rung{.rung = model.rung, .p = whole.p, .trained = trained.p};
     take_over(rung, below, with);
     describe(rung, model.what, by_all, whole, by_training, trained);
