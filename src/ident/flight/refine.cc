@@ -300,7 +300,7 @@ Result refine_as_logged(const Vehicle& vehicle, std::span<const FlightLog> logs,
   as_before_flight(result.parameters, known, held);
   result.prior_correlation =
       vehicle.correlation.part([&](const std::string& name) { return result.find(name) != nullptr; });
-  result.correlation = flight_correlation(theta, fit.covariance);
+  result.correlation = flight_correlation(theta, fit.u, fit.covariance);
   const Refined refined{
       vehicle, logs, record, theta, fit, body, air_share(record, fit), air_balance(record, fit)};
   const SteadyPush push = steady_push(record, fit);

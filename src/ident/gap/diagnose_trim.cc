@@ -233,7 +233,7 @@ void diagnose_trim(Diagnosis& out, const FlightRecord& record, const std::vector
   if (best.candidate >= 0) {
     const Candidate& cause = search.problem.candidates[static_cast<std::size_t>(best.candidate)];
     std::vector<FreeConstant> more = constants;
-    for (FreeConstant c : constants_of(cause, vehicle, p, record.signals.voltage))
+    for (FreeConstant c : constants_of(cause, vehicle, p, record.signals))
       c.adopted = true, more.push_back(c);
     Fitted with = fitted(record, trim, p, std::move(more), {cause}, &base.trim);
     search.best = with.model, left = with.trim;

@@ -98,15 +98,18 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
   return out;
 }
 
-Correlation flight_correlation(const Theta& theta, const Eigen::MatrixXd& covariance) {
+Correlation flight_correlation(const Theta& theta, const Eigen::VectorXd& u,
+                               const Eigen::MatrixXd& covariance) {
   Correlation out;
   std::vector<Eigen::Index> at;
   for (int i = 0; i < theta.constants_count(); ++i) {
     const FreeConstant& c = theta.constants()[static_cast<std::size_t>(i)];
-    if (!c.watched && c.times < 0) out.names.push_back(c.name), at.push_back(i);
+    if (!c.watched) out.names.push_back(c.name), at.push_back(i);
   }
-  const VectorXd s = covariance.diagonal()(at).cwiseSqrt().cwiseInverse();
-  out.matrix = s.asDiagonal() * covariance(at, at) * s.asDiagonal();
+  const auto n = theta.constants_count();
+  const Eigen::MatrixXd J = theta.slopes(u), of_values = J * covariance.topLeftCorner(n, n) * J.transpose();
+  const VectorXd s = of_values.diagonal()(at).cwiseSqrt().cwiseInverse();
+  out.matrix = s.asDiagonal() * of_values(at, at) * s.asDiagonal();
   return out;
 }
 

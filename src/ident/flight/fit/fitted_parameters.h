@@ -16,7 +16,8 @@ std::vector<Parameter> flight_parameters(const Theta& theta, const FlightFit& fi
 
 /// Correlation of those estimates, from the covariance of the unknowns. Constants that move as a product with
 /// another one (the place of a payload) are left out.
-Correlation flight_correlation(const Theta& theta, const Eigen::MatrixXd& covariance);
+Correlation flight_correlation(const Theta& theta, const Eigen::VectorXd& u,
+                               const Eigen::MatrixXd& covariance);
 
 /// Combinations that the data determine, in words ("kT and km only as kT km^2").
 std::vector<std::string> combinations(const Theta& theta, const FlightFit& fit,

@@ -106,6 +106,16 @@ double Theta::slope_over_factor(const Eigen::VectorXd& u, int i) const {
   return k < 0 ? 0.0 : -physical(u, i) / physical(u, k) * slope(u, k);
 }
 
+Eigen::MatrixXd Theta::slopes(const Eigen::VectorXd& u) const {
+  const int n = constants_count();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    J(i, i) = slope(u, i);
+    if (const int k = factor(i); k >= 0) J(i, k) = slope_over_factor(u, i);
+  }
+  return J;
+}
+
 double Theta::deviation(const Eigen::VectorXd& u, int i, const Eigen::MatrixXd& covariance) const {
   const double own = slope(u, i), other = slope_over_factor(u, i);
   const int k = std::max(factor(i), 0);

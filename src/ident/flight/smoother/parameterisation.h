@@ -49,6 +49,8 @@ class Theta {
   /// Physical value of unknown i, and its derivative with respect to u_i.
   double physical(const Eigen::VectorXd& u, int i) const;
   double slope(const Eigen::VectorXd& u, int i) const;
+  /// Derivatives of all those values (rows) with respect to the unknowns of constants (columns).
+  Eigen::MatrixXd slopes(const Eigen::VectorXd& u) const;
   /// Standard deviation of that value, from the covariance of u.
   double deviation(const Eigen::VectorXd& u, int i, const Eigen::MatrixXd& covariance) const;
 

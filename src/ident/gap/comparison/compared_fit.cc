@@ -38,26 +38,12 @@ std::string cause_of(const std::vector<Candidate>& causes, const FreeConstant& c
   return cause == causes.end() ? std::string() : cause->name;
 }
 
-/// Slopes of the physical values over the unknowns. The place of a payload is the ratio of two of them.
-MatrixXd slopes(const Theta& theta, const Eigen::VectorXd& u) {
-  const int n = theta.constants_count();
-  MatrixXd J = MatrixXd::Zero(n, n);
-  for (int i = 0; i < n; ++i) {
-    J(i, i) = theta.slope(u, i);
-    const int times = theta.constants()[static_cast<std::size_t>(i)].times;
-    for (int k = 0; k < n && times >= 0; ++k)
-      if (theta.constants()[static_cast<std::size_t>(k)].index == times)
-        J(i, k) = -theta.physical(u, i) / theta.physical(u, k) * theta.slope(u, k);
-  }
-  return J;
-}
-
 ComparedFit in_own_units(const FittedModel& model) {
   const Theta& theta = *model.theta;
   const Eigen::VectorXd& u = model.fit.u;
   const Index n = theta.constants_count();
   const PriorTerms prior = theta.prior(u);
-  const MatrixXd J = slopes(theta, u), C = model.fit.covariance.topLeftCorner(n, n);
+  const MatrixXd J = theta.slopes(u), C = model.fit.covariance.topLeftCorner(n, n);
   const MatrixXd known = (prior.slope.asDiagonal() * prior.precision * prior.slope.asDiagonal());
   const MatrixXd response = MatrixXd::Identity(n, n) - C * known.topLeftCorner(n, n);
   ComparedFit out{.value = Eigen::VectorXd(n),

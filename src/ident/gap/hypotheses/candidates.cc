@@ -222,7 +222,7 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
 }
 
 std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle& vehicle,
-                                       const std::vector<double>& p, bool voltage) {
+                                       const std::vector<double>& p, const Signals& signals) {
   std::vector<FreeConstant> out;
   if (candidate.parameter >= 0) return out;
   if (candidate.name == "payload") {
@@ -242,8 +242,11 @@ std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle
         continue;
     }
     if (candidate.name == "wind" && name == "down") continue;
-    if (candidate.name == "battery_sag" && (name == "n") != voltage) continue;
+    if (candidate.name == "battery_sag" && (name == "n") != signals.voltage) continue;
     out.push_back(effect_constant(candidate.name + "." + name, vehicle, p));
+    // Of rotors whose speed is not measured, commands tell what turns with them only times km.
+    const bool by_commands = signals.commands && !signals.rotor_speeds;
+    if (by_commands && q.unit.ends_with("/rad")) out.back().times = param::km;
   }
   return out;
 }

@@ -56,8 +56,9 @@ ExtendedProblem extended_problem(const Vehicle& vehicle, const std::vector<doubl
                                  const std::vector<std::string>& exclude);
 
 /// Constants of an adopted cause in the full model (starting values in p units), with a payload's place free.
-/// `voltage`: the logs have a battery voltage.
+/// Where commands are all that is known of the rotors, the size of what turns with them is free times km:
+/// else a strong effect could be made up for by a km that goes along a straight line to nothing.
 std::vector<FreeConstant> constants_of(const Candidate& candidate, const Vehicle& vehicle,
-                                       const std::vector<double>& p, bool voltage);
+                                       const std::vector<double>& p, const Signals& signals);
 
 }  // namespace ident

@@ -72,7 +72,7 @@ Vehicle adopted_vehicle(const Vehicle& vehicle, const FittedModel& model) {
     refitted.insert(name);
   }
   out.correlation =
-      vehicle.correlation.renewed(flight_correlation(theta, model.fit.covariance),
+      vehicle.correlation.renewed(flight_correlation(theta, u, model.fit.covariance),
                                   [&](const std::string& name) { return refitted.contains(name); });
   for (Rotor& rotor : out.rotors) rotor.a_B = axis_at(rotor, slant_angle(out));
   return out;

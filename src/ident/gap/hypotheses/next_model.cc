@@ -85,7 +85,7 @@ FittedModel with_causes(const FlightRecord& record, const Vehicle& vehicle, cons
   for (const int chosen : causes) {
     const Candidate& cause = at_now.problem.candidates[static_cast<std::size_t>(chosen)];
     adopted.push_back(cause);
-    for (FreeConstant c : constants_of(cause, vehicle, at, record.signals.voltage)) {
+    for (FreeConstant c : constants_of(cause, vehicle, at, record.signals)) {
       if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
       const auto had = std::ranges::find(at_now.model.constants, c.name, &FreeConstant::name);
       if (had != at_now.model.constants.end())

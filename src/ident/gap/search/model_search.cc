@@ -164,10 +164,11 @@ class Search {
   // is mounted is no form of anything.
   bool explains_its_share(const Further& next, const Candidate& cause) const {
     const bool mounting = is_of_mounting(cause.name);
+    const auto counts = [&](const SearchStep& step) { return mounting || !is_of_mounting(step.name); };
     const auto sum = [&](const std::vector<SearchStep>& steps) {
       double gain = 0;
       for (const SearchStep& s : steps)
-        if (mounting || !is_of_mounting(s.name)) gain += s.gain;
+        if (counts(s)) gain += s.gain;
       return gain;
     };
     // Drag and what comes with it, wind that acts by it or rotors that flap as they drag, are one.
@@ -177,7 +178,7 @@ class Search {
     const bool in_one = std::ranges::any_of(s_.now.model.adopted, [&](const Candidate& c) {
       return is_one_with(c, cause) || is_one_with(cause, c);
     });
-    const int found = static_cast<int>(s_.out.steps.size()) - (in_one ? 1 : 0);
+    const int found = static_cast<int>(std::ranges::count_if(s_.out.steps, counts)) - (in_one ? 1 : 0);
     const double gain = sum(s_.out.steps);
     return is_material(next, cause, found,
                        found > 1 && !mounting ? std::max(gain, sum(s_.steps_here())) : gain);

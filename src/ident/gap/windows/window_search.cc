@@ -51,7 +51,7 @@ class Search {
   WindowStanding with(std::vector<Candidate> causes) const {
     std::vector<FreeConstant> constants = free_constants(vehicle_, p_);
     for (const Candidate& cause : causes)
-      for (FreeConstant c : constants_of(cause, vehicle_, p_, model_.record().signals.voltage)) {
+      for (FreeConstant c : constants_of(cause, vehicle_, p_, model_.record().signals)) {
         if (std::ranges::find(constants, c.name, &FreeConstant::name) != constants.end()) continue;
         c.adopted = true;
         constants.push_back(c);
