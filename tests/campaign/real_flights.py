@@ -190,7 +190,8 @@ def crazypad(program, data):
     diagnosis_head()
     for one in ("E8", "E9"):
         normal = sorted(folder.glob(f"m_normal_flight__{one}_*.csv"))
-        others = normal[2:] + sorted(folder.glob(f"m_cut_propeller_*__{one}_*.csv"))
+        others = normal[2:] + sorted(folder.glob(f"m_cut_propeller_*__{one}_*.csv")) + sorted(
+            folder.glob(f"m_weight_*__{one}.csv"))
         with tempfile.TemporaryDirectory() as campaign:
             names = ", ".join(json.dumps(str(f.resolve())) for f in normal[:2])
             (Path(campaign) / "ident.yaml").write_text(
