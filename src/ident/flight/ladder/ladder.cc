@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ident/core/parallel.h"
 #include "ident/core/stage_times.h"
 #include "ident/effects/all_parameters.h"
 #include "ident/flight/ladder/constant_limits.h"
@@ -151,8 +152,13 @@ class Climb {
     const RungResult below = result_.rungs[result_.chosen];  // a copy: rungs are added
     const Theta by_training = theta_of(below.trained, with), by_all = theta_of(below.p, with);
     // Of the fit to a part only the values count.
-    const WindowFit trained = fit_windows(training_motion_, by_training, model.what, {}),
-                    whole = fit_windows(whole_motion_, by_all, model.what, held_beside(with, below));
+    WindowFit trained, whole;
+    in_parallel(2, [&](std::size_t of) {
+      if (of == 0)
+        whole = fit_windows(whole_motion_, by_all, model.what, held_beside(with, below), below.p);
+      else
+        trained = fit_windows(training_motion_, by_training, model.what, {}, below.trained);
+    });
     RungResult rung{.rung = model.rung, .p = whole.p, .trained = trained.p};
     take_over(rung, below, with);
     describe(rung, model.what, by_all, whole, by_training, trained);

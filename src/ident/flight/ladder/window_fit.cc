@@ -20,8 +20,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kBlockFit = 2.0;  // s over which residuals are taken for related
-constexpr int kSloped = 2;  // of them with slopes of their own: forces are nearly linear in all constants
-constexpr int kSteps = 6;   // most Gauss-Newton steps; the model is nearly linear
+// Slopes are taken anew where a step missed what they promised by more than this share of it: forces are
+// nearly linear in all constants.
+constexpr double kBent = 0.05;
+constexpr int kSteps = 6;        // most Gauss-Newton steps; the model is nearly linear
 constexpr double kStill = 1e-3;  // of a unit: no step worth another
 constexpr double kApart = 1e-3;  // of a unit, for differences
 // s: rates come late against what turns the vehicle by the filter of the gyro (0.23/f_c of second order at
@@ -133,6 +135,20 @@ VectorXd step_within(const MatrixXd& A, const VectorXd& b, const VectorXd& u,
   return step;
 }
 
+// Where these constants are, within their limits.
+VectorXd place_of(const Theta& theta, const std::vector<double>& p,
+                  const std::vector<std::array<double, 2>>& limits) {
+  VectorXd u(theta.size());
+  for (int i = 0; i < theta.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const FreeConstant& c = theta.constants()[k];
+    const double value = p[static_cast<std::size_t>(c.index)];
+    u[i] = c.positive ? std::log(value / c.start) : (value - c.start) / c.scale;
+    u[i] = std::isfinite(u[i]) ? std::clamp(u[i], limits[k][0], limits[k][1]) : 0.0;
+  }
+  return u;
+}
+
 // What an error of the constants that are held makes of the estimate.
 void add_held(WindowFit& fit, const MatrixXd& gain, const std::vector<HeldConstant>& held,
               const Misses& misses) {
@@ -147,7 +163,7 @@ void add_held(WindowFit& fit, const MatrixXd& gain, const std::vector<HeldConsta
 }  // namespace
 
 WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what,
-                      const std::vector<HeldConstant>& held) {
+                      const std::vector<HeldConstant>& held, const std::vector<double>& from) {
   const std::vector<Window> windows = windows_of(motion, what);
   const Eigen::Index n = theta.size(), beside = what == FitTo::moments ? 1 : 0;  // how late rates come
   std::vector<std::array<double, 2>> limits;
@@ -155,29 +171,39 @@ WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo wh
   for (Eigen::Index i = 0; i < beside; ++i) limits.push_back({-kLatest, kLatest});
   WindowFit fit;
   fit.windows = windows.size();
-  VectorXd x = VectorXd::Zero(n + beside);
+  VectorXd x = VectorXd::Zero(n + beside), promised, before;
+  x.head(n) = place_of(theta, from, limits);
   MatrixXd J, gain, covariance;  // gain: of the estimate over the residuals
   for (int round = 0; round < kSteps; ++round) {
     fit.u = x.head(n);
     const Misses misses(motion, windows, what, theta.p(fit.u));
-    if (round < kSloped) {
+    const bool bent = round > 0 && (misses.here - promised).norm() > kBent * (promised - before).norm();
+    if (round == 0 || bent) {
       J = misses.slopes(theta, fit.u);
       J.conservativeResize(Eigen::NoChange, x.size());
       if (beside > 0) J.col(n) = kLate * misses.by_late_rates();
     }
     const VectorXd r = misses.here + J.rightCols(beside) * x.tail(beside);
-    const VectorXd weight = weight_by_speed(windows, r);
-    const VectorXd weighted = weight.cwiseProduct(r);
-    const MatrixXd H = J.transpose() * weight.asDiagonal() * J;
-    const VectorXd factor = colour(windows, J, weighted, H.diagonal()).cwiseSqrt().cwiseInverse();
     const Stated prior = stated(theta, x);
-    const MatrixXd A = factor.asDiagonal() * H * factor.asDiagonal() + prior.information;
+    const auto gain_by = [&](const VectorXd& weight) {
+      const MatrixXd H = J.transpose() * weight.asDiagonal() * J;
+      return MatrixXd((H + 1e-9 * MatrixXd(H.diagonal().asDiagonal()) + 1e-12 * prior.information)
+                          .ldlt()
+                          .solve(MatrixXd(J.transpose() * weight.asDiagonal())));
+    };
+    // Weights and colour are of what is missed with these constants at the data's own optimum, wherever the
+    // search stands: of what a constant still explains they would make noise, and distrust the data that tell
+    // it.
+    const VectorXd weight = weight_by_speed(windows, r - J * (gain_by(weight_by_speed(windows, r)) * r));
+    const MatrixXd own = gain_by(weight);
+    const MatrixXd H = J.transpose() * weight.asDiagonal() * J;
+    const VectorXd missed = weight.cwiseProduct(r - J * (own * r));
+    const VectorXd factor = colour(windows, J, missed, H.diagonal()).cwiseSqrt().cwiseInverse();
     // The data's own step under that information, so that colour moves the weight against priors only.
     const MatrixXd data = factor.asDiagonal() * H * factor.asDiagonal();
-    const MatrixXd own = (H + 1e-9 * MatrixXd(H.diagonal().asDiagonal()) + 1e-12 * prior.information)
-                             .ldlt()
-                             .solve(MatrixXd(J.transpose() * weight.asDiagonal()));
+    const MatrixXd A = data + prior.information;
     const VectorXd step = step_within(A, -(data * (own * r)) - prior.gradient, x, limits, fit.at_limit);
+    before = misses.here, promised = before + J.leftCols(n) * step.head(n);
     x += step;
     gain = A.ldlt().solve(data * own);
     covariance = A.ldlt().solve(MatrixXd::Identity(A.rows(), A.cols()));

@@ -35,7 +35,8 @@ struct HeldConstant {
 /// with speed as the residuals show it to, so that slow flight, in which thrust carries the weight and little
 /// else acts, says what thrust is. Estimates do not leave what a vehicle can have; see `limits_of`.
 /// The covariance has its part from `held`: what the estimates move by where one of them is a deviation off.
+/// The search begins at the constants `from`.
 WindowFit fit_windows(const MeasuredMotion& motion, const Theta& theta, FitTo what,
-                      const std::vector<HeldConstant>& held);
+                      const std::vector<HeldConstant>& held, const std::vector<double>& from);
 
 }  // namespace ident

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "ident/effects/catalogue.h"
 #include "ident/model/flight.h"
 
 namespace ident {
