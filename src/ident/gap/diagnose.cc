@@ -42,8 +42,8 @@ void require_known(const std::vector<std::string>& causes) {
 void warn_of_measured_motion(Result& result, bool misses_turning, const std::string& why) {
   const std::string reason =
       misses_turning
-          ? "what was logged of the rotors predicts rates worse than no model at all, so no model of the "
-            "whole flight is fitted"
+          ? "what was logged of the rotors does not explain how the vehicle turned, so no model of the whole "
+            "flight is fitted"
       : why.empty()
           ? "no model of the whole flight predicts velocity as well as forces along the measured motion do"
           : "no model of the whole flight can be fitted (" + why + ")";

@@ -46,7 +46,7 @@ Parameter estimated(const RungConstant& c, Parameter p) {
 // Why the full refinement was not taken.
 std::string refusal_of_full(const LadderResult& ladder) {
   if (ladder.rungs.back().rung == Rung::full) return refusal_in_words(ladder.rungs.back());
-  return "was not tried, for rates are predicted worse by what was logged of the rotors than by no model";
+  return "was not tried, for what was logged of the rotors does not explain how the vehicle turned";
 }
 
 // As it was before the flight, whatever the refused fit made of it.

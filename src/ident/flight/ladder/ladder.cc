@@ -81,12 +81,6 @@ class Judge {
     return rung.error[rate][0] < kExplains * result_.persistence[rate][0];
   }
 
-  // Whether rates by those constants are predicted worse than that none changes.
-  bool misses_turning(const std::vector<double>& trained) const {
-    const auto rate = static_cast<std::size_t>(Metric::rate);
-    return !(error_of(held_out_errors(motion_, trained), Metric::rate, 0) <= result_.persistence[rate][0]);
-  }
-
  private:
   struct Standing {
     std::size_t rung = 0;  // in the result
@@ -264,8 +258,6 @@ class Climb {
   std::array<std::vector<std::string>, 3> names_;  // that are fitted on each side
 };
 
-bool is_of_moments(const RungResult& rung) { return rung.rung == Rung::trim || rung.rung == Rung::inertia; }
-
 }  // namespace
 
 std::optional<LadderResult> climb_ladder(const FlightRecord& record) {
@@ -283,10 +275,7 @@ std::optional<LadderResult> climb_ladder(const FlightRecord& record) {
   const auto explains = [&](const RungResult& rung) { return judge.explains_rates(rung); };
   result.moments_unexplained = motion.moments && std::ranges::none_of(result.rungs, explains);
   const bool confirmed = record.signals.commands && record.signals.rotor_speeds;
-  const auto misses = [&](const RungResult& rung) {
-    return !is_of_moments(rung) || judge.misses_turning(rung.trained);
-  };
-  result.misses_turning = motion.moments && !confirmed && std::ranges::all_of(result.rungs, misses);
+  result.misses_turning = result.moments_unexplained && !confirmed;
   return result;
 }
 

@@ -56,8 +56,7 @@ struct LadderResult {
   double seconds = 0.0;           ///< of held-out flight
   /// What was logged of the rotors does not say how the vehicle turned: no rung explains half of it.
   bool moments_unexplained = false;
-  /// Every rung that estimates moments predicts rates worse than no model at all. Not where both commands and
-  /// speeds were logged, for then one confirms the other as what turned the vehicle.
+  /// The same, and nothing confirms what turned the vehicle: commands and speeds were not both logged.
   bool misses_turning = false;
   bool rotor_speeds = false;  ///< were logged: what turned the vehicle was not hidden behind commands
 };
