@@ -162,6 +162,16 @@ TEST(Layering, WhatAHeaderDeclaresIsDefinedInTheSourceBesideIt) {
   }
 }
 
+// A build that compiles whole folders as one source would not miss it, one of each source by itself would.
+TEST(Layering, ASourceIncludesTheHeaderBesideIt) {
+  for (const fs::path& header : files_below(kSource / "src/ident", {".h"})) {
+    const fs::path source = fs::path(header).replace_extension(".cc");
+    if (!fs::exists(source)) continue;
+    const std::string name = fs::relative(header, kSource / "src").generic_string();
+    EXPECT_NE(content(source).find("#include \"" + name + "\""), std::string::npos) << source;
+  }
+}
+
 TEST(Layering, OnlyTheLeastSquaresDoorIncludesAllOfCeres) {
   for (const fs::path& file : files_below(kSource / "src/ident", {".h", ".cc"})) {
     const std::string text = content(file);

@@ -2,6 +2,8 @@
 // RCbenchmark 15xx ("Motor Optical Speed (RPM)", "ESC signal (us)"), 1780 ("ESC (us)") and AutoQuad ESC32
 // logs ("Duty", "Batt. Volts").
 
+#include "ident/io/csv/table_schemas.h"
+
 namespace ident {
 namespace {
 
