@@ -162,7 +162,7 @@ TEST(Layering, WhatAHeaderDeclaresIsDefinedInTheSourceBesideIt) {
   }
 }
 
-// A build that compiles whole folders as one source would not miss it, one of each source by itself would.
+// A build that compiles a whole folder as one source does not notice a missing include.
 TEST(Layering, ASourceIncludesTheHeaderBesideIt) {
   for (const fs::path& header : files_below(kSource / "src/ident", {".h"})) {
     const fs::path source = fs::path(header).replace_extension(".cc");

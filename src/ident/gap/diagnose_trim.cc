@@ -112,9 +112,8 @@ Fitted fitted(const FlightRecord& record, const Trim& trim, const std::vector<do
 }
 
 // A load that balance does not tell from the cause found. One beside a rotor asks for the thrust and the
-// moments that the rotor would fail to give, and only what turns about z could tell them apart. A tilt of
-// that rotor by two degrees, or what a load in its wash takes of its torque, does as much there: a weight
-// beside rotor 3 of a real Crazyflie (crazypad, W3) shows 29 % less torque of it.
+// moments that the rotor would fail to give. Only the moment about z differs, and a tilted rotor or a load in
+// its wash changes that one too; see gap/README.md.
 struct Load {
   double kg = kNaN, std = kNaN;  ///< NaN where its mass is open: one that shifts the centre of gravity
 };
